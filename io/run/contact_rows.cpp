@@ -116,11 +116,10 @@ void ContactRows::add_world(const FrameSource& source, const stepping::LocalWorl
     for (; old < memory.size() && (pair == nullptr || memory[old].geoms < *pair); ++old)
       put(memory[old], nullptr);
   };
-  for (std::size_t i = 0; i < shown.contacts.size(); ++i) {
-    put_sleeping_before(&shown.forces[i].geoms);
-    put(shown.forces[i], &shown.contacts[i]);
-    while (old < memory.size() && memory[old].geoms == shown.forces[i].geoms)
-      ++old;  // the contacts of the step
+  for (const auto& [contact, force] : shown.contacts) {
+    put_sleeping_before(&force.geoms);
+    put(force, &contact);
+    while (old < memory.size() && memory[old].geoms == force.geoms) ++old;  // the contacts of the step
   }
   put_sleeping_before(nullptr);
 }

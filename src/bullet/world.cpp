@@ -151,7 +151,7 @@ void World::note_centres() {
 
 void World::show_contacts() {
   shown_.clear();
-  contacts_.show(centres_, shown_.contacts, shown_.forces);
+  contacts_.show(centres_, shown_.contacts);
   for (int joint = 0; joint < joints_.size(); ++joint) shown_.joints.push_back(loads_.force(joint));
 }
 

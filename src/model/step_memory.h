@@ -1,7 +1,8 @@
 /// What a step hands on to the next in addition to poses and velocities.
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include "model/contact.h"
@@ -16,6 +17,32 @@ struct ContactForce {
   Vec3 arm = Vec3::Zero();           ///< [m] from the centre of body a to the point, world axes
   double normal = 0;                 ///< [N]
   Vec3 friction = Vec3::Zero();      ///< [N] on body a, world frame
+
+  /// No force yet, at a contact. `centre`: of body a [m], world frame.
+  static ContactForce at(const Contact& contact, const Vec3& centre) {
+    return {.geoms = contact.geoms,
+            .body_a = contact.body_a,
+            .body_b = contact.body_b,
+            .arm = contact.position - centre};
+  }
+};
+
+/// A contact, and the force with which it ended a step.
+struct LoadedContact {
+  Contact contact;
+  ContactForce force;
+};
+
+/// The contacts of a world, in canonical order, and the forces with which they start and end a step:
+/// [contacts], or none where nothing is remembered or shown. Borrowed.
+struct SolvedContacts {
+  std::span<const Contact> contacts;
+  std::span<ContactForce> forces;
+
+  SolvedContacts part(std::size_t first, std::size_t count) const {
+    return {contacts.subspan(first, count),
+            forces.empty() ? std::span<ContactForce>() : forces.subspan(first, count)};
+  }
 };
 
 /// The forces with which a joint ended a step, on its first body, world frame; and what its pose does not

@@ -89,15 +89,10 @@ void Touches::show(const mjModel& compiled, const mjData& data, std::span<const 
     std::array<mjtNum, 6> along{};
     mj_contactForce(&compiled, &data, i, along.data());
     const double sign = contact.normal.dot(vec3(found.frame)) > 0 ? 1 : -1;
-    model::ContactForce force;
-    force.geoms = contact.geoms;
-    force.body_a = contact.body_a;
-    force.body_b = contact.body_b;
-    force.arm = contact.position - before[contact.body_a];
+    auto force = model::ContactForce::at(contact, before[contact.body_a]);
     force.normal = along[0];
     force.friction = sign * (along[1] * vec3(found.frame + 3) + along[2] * vec3(found.frame + 6));
-    shown.contacts.push_back(contact);
-    shown.forces.push_back(force);
+    shown.contacts.push_back({contact, force});
   }
 }
 

@@ -169,7 +169,6 @@ void World::take_step(bool is_last, core::LapTimer& timer) {
 void World::forget_contacts() {
   contacts_.forget();
   shown_.contacts.clear();
-  shown_.forces.clear();
 }
 
 int World::sweeps_of(int body) const {
@@ -232,7 +231,7 @@ void World::note_centres() {
 
 void World::show_contacts() {
   shown_.clear();
-  contacts_.show(centres_, shown_.contacts, shown_.forces);
+  contacts_.show(centres_, shown_.contacts);
   for (std::size_t joint = 0; joint < joints_.size(); ++joint)
     shown_.joints.push_back(loads_.force(static_cast<int>(joint)));
 }

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "model/contact.h"
 #include "model/step_memory.h"
 
 namespace pbmpi::stepping {
@@ -11,13 +10,11 @@ namespace pbmpi::stepping {
 /// Contacts and joints of a step, with the forces with which they ended its last substep. With the effect
 /// "sleeping", those of awake bodies only.
 struct StepContacts {
-  std::vector<model::Contact> contacts;     ///< in canonical order, speculative contacts included
-  std::vector<model::ContactForce> forces;  ///< [contacts]
-  std::vector<model::JointForce> joints;    ///< [num_joints]; arbitrary for a broken joint
+  std::vector<model::LoadedContact> contacts;  ///< in canonical order, speculative contacts included
+  std::vector<model::JointForce> joints;       ///< [num_joints]; arbitrary for a broken joint
 
   void clear() {
     contacts.clear();
-    forces.clear();
     joints.clear();
   }
 };

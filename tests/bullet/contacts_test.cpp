@@ -73,12 +73,12 @@ TEST(Contacts, carry_the_weight_of_what_rests_on_them) {
   ASSERT_NE(seen, nullptr);
   ASSERT_EQ(seen->contacts.size(), 4);
   double normal = 0;
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(seen->contacts[i].body_a, 0);
-    EXPECT_EQ(seen->contacts[i].body_b, model::no_body);
-    EXPECT_GT(seen->contacts[i].normal.z(), 0.999);
-    normal += seen->forces[i].normal;
-    EXPECT_NEAR(seen->forces[i].arm.z(), -0.1, 0.005);
+  for (const auto& [contact, force] : seen->contacts) {
+    EXPECT_EQ(contact.body_a, 0);
+    EXPECT_EQ(contact.body_b, model::no_body);
+    EXPECT_GT(contact.normal.z(), 0.999);
+    normal += force.normal;
+    EXPECT_NEAR(force.arm.z(), -0.1, 0.005);
   }
   EXPECT_NEAR(normal, 2 * 9.81, 0.1);
 }
@@ -94,7 +94,7 @@ TEST(Contacts, hold_by_the_friction_of_their_pair) {
   simulation.advance(100);
   const stepping::StepContacts& seen = *simulation.stepper().contacts(0);
   Vec3 friction = Vec3::Zero();
-  for (const model::ContactForce& force : seen.forces) friction += force.friction;
+  for (const model::LoadedContact& one : seen.contacts) friction += one.force.friction;
   EXPECT_NEAR(friction.x(), -6, 0.3);  // 2 kg x 3 m/s^2
   EXPECT_LT(simulation.state().velocity[0].norm(), 0.01);
 }

@@ -104,14 +104,11 @@ stepping::StepContacts sample_contacts(const Sample& sample, int world, std::int
     contact.normal = Vec3::UnitZ();
     contact.depth = 0.25 * i;
     contact.mu = 0.5;
-    model::ContactForce force;
-    force.geoms = contact.geoms;
-    force.body_a = contact.body_a;
+    auto force = model::ContactForce::at(contact, contact.position);
     force.arm = Vec3(0.5, 0, k);
     force.normal = 8.0 * (i + 1);
     force.friction = Vec3(world, -k, 0);
-    shown.contacts.push_back(contact);
-    shown.forces.push_back(force);
+    shown.contacts.push_back({contact, force});
   }
   shown.joints.resize(sample_model(sample, world)->joints.size());
   for (model::JointForce& force : shown.joints) {

@@ -79,12 +79,12 @@ TEST(MujocoContacts, are_shown_with_forces_that_carry_the_weight) {
   ASSERT_NE(shown, nullptr);
   ASSERT_EQ(shown->contacts.size(), 4u);
   double carried = 0;
-  for (std::size_t i = 0; i < shown->contacts.size(); ++i) {
-    EXPECT_EQ(shown->contacts[i].body_a, 0);
-    EXPECT_EQ(shown->contacts[i].body_b, model::no_body);
-    EXPECT_GT(shown->contacts[i].normal.z(), 0.999) << "into body a";
-    EXPECT_NEAR(shown->forces[i].arm.z(), -0.5, 0.01);
-    carried += shown->forces[i].normal;
+  for (const auto& [contact, force] : shown->contacts) {
+    EXPECT_EQ(contact.body_a, 0);
+    EXPECT_EQ(contact.body_b, model::no_body);
+    EXPECT_GT(contact.normal.z(), 0.999) << "into body a";
+    EXPECT_NEAR(force.arm.z(), -0.5, 0.01);
+    carried += force.normal;
   }
   EXPECT_NEAR(carried, 10 * g, 1);
 }

@@ -1,6 +1,7 @@
 #include "mpi/spaces/step/frame_report.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "model/joint_gap.h"
@@ -24,16 +25,22 @@ void put_forces(const std::vector<Force>& forces, MessageWriter& message) {
 
 void put_contacts(const stepping::StepContacts& shown, MessageWriter& message) {
   std::vector<WireContact> contacts;
-  for (const model::Contact& contact : shown.contacts) contacts.push_back(to_wire(contact));
+  std::vector<model::ContactForce> forces;
+  for (const model::LoadedContact& one : shown.contacts) {
+    contacts.push_back(to_wire(one.contact));
+    forces.push_back(one.force);
+  }
   message.put(contacts);
-  put_forces(shown.forces, message);
+  put_forces(forces, message);
   put_forces(shown.joints, message);
 }
 
 stepping::StepContacts read_contacts(MessageReader& message) {
   stepping::StepContacts shown;
-  for (const WireContact& contact : message.get<WireContact>()) shown.contacts.push_back(from_wire(contact));
-  shown.forces = model::take_rows<model::ContactForce>(message.get<double>());
+  const std::span<const WireContact> contacts = message.get<WireContact>();
+  const auto forces = model::take_rows<model::ContactForce>(message.get<double>());
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    shown.contacts.push_back({from_wire(contacts[i]), forces[i]});
   shown.joints = model::take_rows<model::JointForce>(message.get<double>());
   return shown;
 }
@@ -171,15 +178,10 @@ void FrameReport::add(int rank, const Account& account, model::DisjointSets& isl
 void FrameReport::take_contacts(const stepping::StepContacts& part) {
   const stepping::StepContacts earlier = std::exchange(findings_.contacts, {});
   stepping::StepContacts& all = findings_.contacts;
-  std::size_t a = 0, b = 0;
-  while (a < earlier.contacts.size() || b < part.contacts.size()) {
-    const bool from_part = a == earlier.contacts.size() ||
-                           (b < part.contacts.size() && part.contacts[b].geoms < earlier.contacts[a].geoms);
-    const stepping::StepContacts& from = from_part ? part : earlier;
-    std::size_t& at = from_part ? b : a;
-    all.contacts.push_back(from.contacts[at]);
-    all.forces.push_back(from.forces[at++]);
-  }
+  std::ranges::merge(
+      earlier.contacts, part.contacts, std::back_inserter(all.contacts), {},
+      [](const model::LoadedContact& one) { return one.contact.geoms; },
+      [](const model::LoadedContact& one) { return one.contact.geoms; });
   all.joints = earlier.joints.empty() ? part.joints : earlier.joints;
   for (std::size_t joint = 0; joint < part.joints.size(); ++joint) {
     const model::JointForce& force = part.joints[joint];

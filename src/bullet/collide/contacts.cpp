@@ -166,8 +166,7 @@ void Contacts::make_ahead(const std::vector<model::Contact>& contacts) {
   }
 }
 
-void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
-                    std::vector<model::ContactForce>& forces) const {
+void Contacts::show(std::span<const model::Vec3> before, std::vector<model::LoadedContact>& shown) const {
   for (std::size_t i = 0; i < made_.size(); ++i) {
     const btPersistentManifold& manifold = *made_[i].manifold;
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
@@ -175,17 +174,12 @@ void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Cont
       model::Contact contact = to_contact(point, made_[i].geoms, touches_[i]);
       contact.mu = made_[i].material.mu;
       contact.restitution = made_[i].material.restitution;
-      model::ContactForce force;
-      force.geoms = contact.geoms;
-      force.body_a = contact.body_a;
-      force.body_b = contact.body_b;
-      force.arm = contact.position - before[static_cast<std::size_t>(contact.body_a)];
+      auto force = model::ContactForce::at(contact, before[static_cast<std::size_t>(contact.body_a)]);
       force.normal = point.m_appliedImpulse / dt_s_;
       force.friction = (point.m_appliedImpulseLateral1 * vec3(point.m_lateralFrictionDir1) +
                         point.m_appliedImpulseLateral2 * vec3(point.m_lateralFrictionDir2)) /
                        dt_s_;
-      contacts.push_back(contact);
-      forces.push_back(force);
+      shown.push_back({contact, force});
     }
   }
 }

@@ -36,8 +36,7 @@ class Contacts {
 
   /// Appends the contacts and their forces in the step that was solved since make(). `before`: the centres of
   /// the bodies before that step [m].
-  void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
-            std::vector<model::ContactForce>& forces) const;
+  void show(std::span<const model::Vec3> before, std::vector<model::LoadedContact>& shown) const;
 
   const std::vector<stepping::Touch>& touches() const { return touches_; }
   double deepest_m() const { return deepest_m_; }  ///< 0 without contacts

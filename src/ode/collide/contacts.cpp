@@ -46,20 +46,14 @@ void Contacts::watch(dJointID joint, const model::Contact& contact) {
 }
 
 /// The feedback is the force on the joint's first real body: body a.
-void Contacts::show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
-                    std::vector<model::ContactForce>& forces) const {
+void Contacts::show(std::span<const model::Vec3> before, std::vector<model::LoadedContact>& shown) const {
   for (const Kept& kept : kept_) {
     const model::Contact& contact = kept.contact;
-    model::ContactForce force;
-    force.geoms = contact.geoms;
-    force.body_a = contact.body_a;
-    force.body_b = contact.body_b;
-    force.arm = contact.position - before[static_cast<std::size_t>(contact.body_a)];
+    auto force = model::ContactForce::at(contact, before[static_cast<std::size_t>(contact.body_a)]);
     const model::Vec3 whole = vec3(kept.feedback.f1);
     force.normal = whole.dot(contact.normal);
     force.friction = whole - force.normal * contact.normal;
-    contacts.push_back(contact);
-    forces.push_back(force);
+    shown.push_back({contact, force});
   }
 }
 

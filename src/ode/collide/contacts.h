@@ -38,8 +38,7 @@ class Contacts {
   void keep(bool keep) { keeps_ = keep; }
   /// Appends the kept contacts, with their forces in the step that was solved since then. `before`: the
   /// centres of the bodies before that step [m].
-  void show(std::span<const model::Vec3> before, std::vector<model::Contact>& contacts,
-            std::vector<model::ContactForce>& forces) const;
+  void show(std::span<const model::Vec3> before, std::vector<model::LoadedContact>& shown) const;
 
   /// Forgets touches() as well: the step has no contacts.
   void forget() {

@@ -129,11 +129,11 @@ class ContactLists {
   }
 
   /// Adds the contacts of one world, in canonical order, that belong to bodies with `moves(body)`.
-  /// `place_of(body)`: the lane place of a body or the environment. `forces`: those with which the contacts
-  /// start and end, [contacts] or none. The spans must stay valid during the step.
+  /// `place_of(body)`: the lane place of a body or the environment. The contacts must stay valid during the
+  /// step.
   template <class Moves, class PlaceOf>
-  void add_world(int num_bodies, std::span<const model::Contact> contacts,
-                 std::span<model::ContactForce> forces, Moves moves, PlaceOf place_of) {
+  void add_world(int num_bodies, const model::SolvedContacts& solved, Moves moves, PlaceOf place_of) {
+    const std::span<const model::Contact> contacts = solved.contacts;
     if (!contacts.empty()) painter_.start(num_bodies);
     for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
       const model::Contact& first = contacts[begin];
@@ -143,8 +143,7 @@ class ContactLists {
       while (end < last && belong_together(first, contacts[end])) ++end;
       const int color = painter_.paint(first.body_a, first.body_b);
       num_colors_ = std::max(num_colors_, color + 1);
-      order_of(first).add(contacts.subspan(begin, end - begin),
-                          forces.empty() ? nullptr : forces.data() + begin, color, place_of(first.body_a),
+      order_of(first).add(solved.part(begin, end - begin), color, place_of(first.body_a),
                           place_of(first.body_b));
     }
   }

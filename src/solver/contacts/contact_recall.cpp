@@ -47,6 +47,13 @@ void ContactRecall::match(std::span<const ContactForce> before) {
   }
 }
 
+std::vector<model::LoadedContact> ContactRecall::loaded(std::span<const model::Contact> contacts) const {
+  std::vector<model::LoadedContact> loaded;
+  loaded.reserve(contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) loaded.push_back({contacts[i], forces_[i]});
+  return loaded;
+}
+
 void ContactRecall::store(std::vector<ContactForce>& memory) const {
   memory.clear();
   std::merge(forces_.begin(), forces_.end(), kept_.begin(), kept_.end(), std::back_inserter(memory),

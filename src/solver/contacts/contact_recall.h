@@ -23,10 +23,7 @@ class ContactRecall {
     model::Vec3 at = model::Vec3::Zero();
     for (const model::Contact& contact : contacts) {
       if (contact.body_a != body) at = centre(body = contact.body_a);
-      forces_.push_back({.geoms = contact.geoms,
-                         .body_a = contact.body_a,
-                         .body_b = contact.body_b,
-                         .arm = contact.position - at});
+      forces_.push_back(model::ContactForce::at(contact, at));
     }
     kept_.clear();
     for (const model::ContactForce& old : before) {
@@ -36,6 +33,8 @@ class ContactRecall {
   }
   /// [contacts], to be replaced by the forces with which the step ends.
   std::span<model::ContactForce> forces() { return forces_; }
+  /// The contacts of recall(), given again, with their forces.
+  std::vector<model::LoadedContact> loaded(std::span<const model::Contact> contacts) const;
   std::span<const model::ContactForce> forces() const { return forces_; }
   /// What is to be remembered after the step.
   void store(std::vector<model::ContactForce>& memory) const;

@@ -33,9 +33,8 @@ class ManifoldOrder {
   };
 
   void clear();
-  /// `points` and `forces` must stay valid until the next clear().
-  void add(std::span<const model::Contact> points, model::ContactForce* forces, int color, LanePlace a,
-           LanePlace b);
+  /// `points` must stay valid until the next clear().
+  void add(const model::SolvedContacts& points, int color, LanePlace a, LanePlace b);
 
   /// [slots][num_lanes], by ascending colour, and within a colour by descending number of points, since a
   /// slot takes as long as its longest manifold. Lanes without a manifold idle on `static_slot`, which comes

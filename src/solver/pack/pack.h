@@ -85,13 +85,10 @@ class Pack {
   /// Appends the contacts of given pairs (sorted) of one world, whether or not their geoms are swept.
   virtual void collide_pairs(int world, std::span<const model::GeomPair> pairs,
                              std::vector<model::Contact>& contacts) = 0;
-  using Contacts = std::span<const std::span<const model::Contact>>;
-  using Forces = std::span<const std::span<model::ContactForce>>;
-  /// Takes one step with these contacts (of each world, in canonical order). `forces`: those with which the
-  /// contacts start and, after the call, end: [contacts] of each world, or none. The spans must stay valid
-  /// during the call. Adds the seconds spent on rows, solve and integrate to `times`.
-  virtual void step(Contacts contacts, Forces forces, const StepParameters& parameters,
-                    core::PhaseTimes& times) = 0;
+  using Contacts = std::span<const model::SolvedContacts>;
+  /// Takes one step with the contacts of each world, which must stay valid during the call. Adds the seconds
+  /// spent on rows, solve and integrate to `times`.
+  virtual void step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) = 0;
   /// How far a world's last step was from the solution of its constraints; StepParameters::residuals only.
   virtual stepping::Residuals residuals(int world) const = 0;
   /// What a joint of an active body exerted in the last substep.

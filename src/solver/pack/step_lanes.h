@@ -23,7 +23,6 @@ class StepLanes {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
   using Contacts = Pack::Contacts;
-  using Forces = Pack::Forces;
 
   /// `passes` and `worlds` are borrowed.
   StepLanes(const PackLaws& laws, const Passes& passes, WorldLanes<T>& worlds)
@@ -35,8 +34,8 @@ class StepLanes {
         laws_(laws, passes, {}) {}
 
   /// Pack::step().
-  void run(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times) {
-    begin(contacts, forces, parameters, times);
+  void run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
+    begin(contacts, parameters, times);
     finish(times);
   }
 
@@ -46,9 +45,9 @@ class StepLanes {
  private:
   using Batch = typename JointBatches<T>::Batch;
 
-  void begin(Contacts contacts, Forces forces, const StepParameters& parameters, core::PhaseTimes& times);
+  void begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times);
   void finish(core::PhaseTimes& times);
-  void sort_contacts(Contacts contacts, Forces forces);
+  void sort_contacts(Contacts contacts);
 
   void touch_trees(int world, std::span<const model::Contact> contacts);
   void damp(const Batch& batch) {
@@ -114,18 +113,18 @@ class StepLanes {
 };
 
 template <class T>
-void StepLanes<T>::sort_contacts(Contacts contacts, Forces forces) {
+void StepLanes<T>::sort_contacts(Contacts contacts) {
   contacts_.clear(parameters_.friction == stepping::Friction::patch ? ContactKind::patched
                                                                     : ContactKind::rough);
   if (trees_) trees_->start_step();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
     const auto w = static_cast<std::size_t>(world);
+    model::SolvedContacts solved = contacts[w];
+    if (!hands_out_forces()) solved.forces = {};
     contacts_.add_world(
-        worlds_.model(world).num_bodies(), contacts[w],
-        hands_out_forces() && !forces.empty() ? forces[w] : std::span<model::ContactForce>(),
-        [&](int body) { return worlds_.moves(world, body); },
+        worlds_.model(world).num_bodies(), solved, [&](int body) { return worlds_.moves(world, body); },
         [&](int body) { return worlds_.places.body(world, body); });
-    if (trees_) touch_trees(world, contacts[w]);
+    if (trees_) touch_trees(world, solved.contacts);
   }
 }
 
@@ -358,15 +357,14 @@ void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
 
 /// Everything before the iterations of the last substep.
 template <class T>
-void StepLanes<T>::begin(Contacts contacts, Forces forces, const StepParameters& parameters,
-                         core::PhaseTimes& times) {
+void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
   choose_trees(parameters.joint_solver);
   parameters_ = parameters;
   laws_ = {pack_laws_, passes_, parameters};
   core::LapTimer timer(times);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
-  sort_contacts(contacts, forces);
+  sort_contacts(contacts);
   twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
   substep_ = 0;
   start_step();

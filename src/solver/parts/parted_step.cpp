@@ -33,11 +33,7 @@ void PartedStep::begin(std::span<const PartedWorld> worlds, const StepParameters
   worlds_.assign(worlds.begin(), worlds.end());
   parameters_ = parameters;
   contacts_.clear();
-  forces_.clear();
-  for (const PartedWorld& world : worlds_) {
-    contacts_.push_back(world.contacts);
-    forces_.push_back(world.forces);
-  }
+  for (const PartedWorld& world : worlds_) contacts_.push_back(world.contacts);
   parts_.clear();
   cut_ = false;
   has_last_ = true;
@@ -84,7 +80,7 @@ void PartedStep::sort_bodies() {
     seen.joint_rows.assign(num_joints, -1);
     seen.reactions.assign(num_joints, {});
     seen.residuals = {};
-    seen.forces.assign(forces_[w].begin(), forces_[w].end());
+    seen.forces.assign(contacts_[w].forces.begin(), contacts_[w].forces.end());
   }
 }
 
@@ -122,20 +118,20 @@ void PartedStep::activate(Pack& pack, const Part& part) const {
 
 void PartedStep::take(Pack& pack, core::PhaseTimes& times) {
   if (!cut_) {
-    pack.step(contacts_, forces_, parameters_, times);
+    pack.step(contacts_, parameters_, times);
     return;
   }
   for (std::size_t p = 0; p + 1 < parts_.size(); ++p) take_part(pack, p, times);
   const Part& last = parts_.back();
   activate(pack, last);
   has_last_ = !last.is_empty();
-  if (has_last_) pack.step(contacts_, forces_, parameters_of(last), times);
+  if (has_last_) pack.step(contacts_, parameters_of(last), times);
 }
 
 void PartedStep::take_part(Pack& pack, std::size_t part, core::PhaseTimes& times) {
   if (parts_[part].is_empty()) return;
   activate(pack, parts_[part]);
-  pack.step(contacts_, forces_, parameters_of(parts_[part]), times);
+  pack.step(contacts_, parameters_of(parts_[part]), times);
   if (parts_[part].on_trial) judge(pack, part);
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     if (!parts_[part].bodies[w].empty()) note(pack, static_cast<int>(w), static_cast<int>(part));
@@ -168,8 +164,8 @@ void PartedStep::put_back(Pack& pack, int world, std::span<const int> far, std::
   std::erase_if(parts_[part].bodies[w],
                 [&](int body) { return seen.part_of_body[static_cast<std::size_t>(body)] == rest_index; });
   for (std::size_t i = 0; i < seen.forces.size(); ++i) {
-    if (seen.part_of_body[static_cast<std::size_t>(contacts_[w][i].body_a)] == rest_index)
-      forces_[w][i] = seen.forces[i];
+    if (seen.part_of_body[static_cast<std::size_t>(contacts_[w].contacts[i].body_a)] == rest_index)
+      contacts_[w].forces[i] = seen.forces[i];
   }
 }
 

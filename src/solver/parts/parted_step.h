@@ -14,9 +14,8 @@ namespace pbmpi::solver {
 /// A world of the pack as it enters a step.
 struct PartedWorld {
   const model::Model* model = nullptr;
-  std::span<const int> bodies;               ///< the bodies that are to move
-  std::span<const model::Contact> contacts;  ///< between these bodies, in canonical order
-  std::span<model::ContactForce> forces;     ///< [contacts] or none: see Pack::step()
+  std::span<const int> bodies;     ///< the bodies that are to move
+  model::SolvedContacts contacts;  ///< between these bodies
   /// The field that has sorted the bodies; null without the effect.
   const effects::FieldOfInterest* field = nullptr;
   /// The shares that have sorted the bodies; null where all islands get the same.
@@ -83,11 +82,10 @@ class PartedStep {
 
   std::vector<PartedWorld> worlds_;
   StepParameters parameters_;
-  std::vector<std::span<const model::Contact>> contacts_;  ///< [num_worlds]
-  std::vector<std::span<model::ContactForce>> forces_;     ///< [num_worlds]
-  std::vector<Part> parts_;                                ///< of a step that is cut
-  std::vector<Seen> seen_;                                 ///< [num_worlds] of a step that is cut
-  std::vector<int> far_;                                   ///< scratch
+  std::vector<model::SolvedContacts> contacts_;  ///< [num_worlds]
+  std::vector<Part> parts_;                      ///< of a step that is cut
+  std::vector<Seen> seen_;                       ///< [num_worlds] of a step that is cut
+  std::vector<int> far_;                         ///< scratch
   bool cut_ = false;
   bool has_last_ = true;  ///< has the last part any bodies?
 };

@@ -309,8 +309,7 @@ void SorSpaceStepper::part(std::span<const Contact> contacts, const StepParamete
   bodies_inside_ = rules_.num_inside();
   PartedWorld world = {.model = model_.get(),
                        .bodies = active_.bodies(),
-                       .contacts = contacts,
-                       .forces = recall_.forces(),
+                       .contacts = {contacts, recall_.forces()},
                        .field = rules_.field()};
   if (shares_) {
     shares_->sort(active_.bodies(), contacts, state().broken_in, state());
@@ -371,9 +370,7 @@ stepping::Observables SorSpaceStepper::count(std::span<const int> units,
 stepping::StepContacts SorSpaceStepper::contacts_of(std::span<const int> units,
                                                     std::span<const Contact> contacts) const {
   stepping::StepContacts shown;
-  shown.contacts.assign(contacts.begin(), contacts.end());
-  const std::span<const model::ContactForce> forces = recall_.forces();
-  shown.forces.assign(forces.begin(), forces.begin() + std::ssize(contacts));
+  shown.contacts = recall_.loaded(contacts);
   model::State stored;
   stored.resize(model_->num_bodies());
   stored.memory.joints.resize(model_->joints.size());

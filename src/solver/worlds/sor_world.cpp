@@ -166,8 +166,7 @@ void SorWorld::sort_islands(const Pack& pack, int index, std::span<const model::
 PartedWorld SorWorld::parted(std::span<const model::Contact> contacts) {
   return {.model = model_.get(),
           .bodies = rules_.awake(),
-          .contacts = contacts,
-          .forces = recall_.forces(),
+          .contacts = {contacts, recall_.forces()},
           .field = rules_.field(),
           .shares = sorted_ ? &*shares_ : nullptr,
           .before = &before_,
@@ -222,8 +221,7 @@ void SorWorld::count_rows(const Pack& pack, int index, const PartedStep& step,
 
 /// While the whole pack sleeps there are no contacts, and the forces are those of an older step.
 void SorWorld::show_contacts(const Pack& pack, int index, std::span<const model::Contact> contacts) {
-  shown_.contacts.assign(contacts.begin(), contacts.end());
-  shown_.forces.assign(recall_.forces().begin(), recall_.forces().begin() + std::ssize(contacts));
+  shown_.contacts = recall_.loaded(contacts);
   model::State stored;
   stored.resize(model_->num_bodies());
   stored.memory.joints.resize(model_->joints.size());

@@ -43,7 +43,7 @@ struct Wrench {
 };
 Wrench friction_of(const stepping::StepContacts& step) {
   Wrench wrench;
-  for (const model::ContactForce& force : step.forces) {
+  for (const auto& [contact, force] : step.contacts) {
     wrench.force += force.friction;
     wrench.torque += force.arm.cross(force.friction);
   }
@@ -79,18 +79,20 @@ TEST_P(Patch, brakes_a_spinning_cube_as_its_corners_would) {
 }
 
 /// The centre of pressure of the step before, at today's contacts: the middle about which a patch twists.
-Vec3 middle_of(const std::vector<model::ContactForce>& now, const std::vector<model::ContactForce>& before) {
+Vec3 middle_of(const std::vector<model::LoadedContact>& now,
+               const std::vector<model::LoadedContact>& before) {
   Vec3 sum = Vec3::Zero();
   double pressure = 0;
-  for (const model::ContactForce& force : now) {
+  for (const model::LoadedContact& one : now) {
+    const Vec3& arm = one.force.arm;
     const auto nearest = std::ranges::min_element(
-        before, {}, [&](const model::ContactForce& old) { return (old.arm - force.arm).norm(); });
-    const double weight = nearest == before.end() ? 0 : nearest->normal;
-    sum += weight * force.arm;
+        before, {}, [&](const model::LoadedContact& old) { return (old.force.arm - arm).norm(); });
+    const double weight = nearest == before.end() ? 0 : nearest->force.normal;
+    sum += weight * arm;
     pressure += weight;
   }
   if (pressure > 0) return sum / pressure;
-  for (const model::ContactForce& force : now) sum += force.arm / static_cast<double>(now.size());
+  for (const model::LoadedContact& one : now) sum += one.force.arm / static_cast<double>(now.size());
   return sum;
 }
 
@@ -101,14 +103,14 @@ TEST_P(Patch, has_a_force_and_a_twist_within_one_ellipsoid) {
   model.bodies[0].angular_velocity = {0, 0, 5};
   const auto stepper = make_stepper(settings_of(Friction::patch, GetParam()), {model});
   int slipping = 0;
-  std::vector<model::ContactForce> before;
+  std::vector<model::LoadedContact> before;
   for (int step = 0; step < 80; ++step) {
     advance(*stepper, 1);
     const stepping::StepContacts& seen = *stepper->contacts(0);
     ASSERT_EQ(seen.contacts.size(), 4u) << step;
-    const Vec3 middle = middle_of(seen.forces, before);
+    const Vec3 middle = middle_of(seen.contacts, before);
     double normal = 0, torque = 0, reach = 0;
-    for (const model::ContactForce& force : seen.forces) {
+    for (const auto& [contact, force] : seen.contacts) {
       const Vec3 lever = force.arm - middle;
       normal += force.normal;
       reach += force.normal * lever.norm();
@@ -118,7 +120,7 @@ TEST_P(Patch, has_a_force_and_a_twist_within_one_ellipsoid) {
     const double used = std::hypot(friction_of(seen).force.norm() / (mu * normal), torque / (mu * reach));
     ASSERT_LT(used, 1.001) << step;
     if (used > 0.999) ++slipping;
-    before = seen.forces;
+    before = seen.contacts;
   }
   EXPECT_GT(slipping, 20) << "as long as it slides";
   EXPECT_LT(slipping, 75) << "and then it stands";
@@ -145,18 +147,17 @@ TEST_P(Patch, remembers_forces_that_balance_a_plank_which_leans_on_one_point) {
   const model::State& state = stepper->state(0);
   ASSERT_LT(state.velocity[1].norm(), 1e-3);
   int idle = 0;
-  Vec3 force = 3 * model.gravity, torque = Vec3::Zero();
-  for (std::size_t i = 0; i < seen.contacts.size(); ++i) {
-    const model::Contact& contact = seen.contacts[i];
+  Vec3 sum = 3 * model.gravity, torque = Vec3::Zero();
+  for (const auto& [contact, force] : seen.contacts) {
     if (contact.body_a != 1 && contact.body_b != 1) continue;
     const double sign = contact.body_a == 1 ? 1 : -1;
-    const Vec3 push = sign * (seen.forces[i].normal * contact.normal + seen.forces[i].friction);
-    force += push;
+    const Vec3 push = sign * (force.normal * contact.normal + force.friction);
+    sum += push;
     torque += (contact.position - state.position[1]).cross(push);
-    if (seen.forces[i].normal == 0) ++idle;
+    if (force.normal == 0) ++idle;
   }
   EXPECT_GT(idle, 0) << "a point of a patch carries nothing";
-  EXPECT_LT(force.norm(), 1e-3 * 3 * gravity);
+  EXPECT_LT(sum.norm(), 1e-3 * 3 * gravity);
   EXPECT_LT(torque.norm(), 2e-5 * 3 * gravity)
       << "a twist about the middle of both points loses 6e-5 and more";
 }
