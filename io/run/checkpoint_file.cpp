@@ -23,13 +23,13 @@ using Integers = std::vector<std::int64_t>;
 using Worlds = std::vector<model::State>;
 
 /// The table of the bodies, the one whose columns have a row a world, and the former's number of rows there.
-constexpr const char *body_table = "bodies", *world_table = "worlds", *num_bodies = "bodies";
+constexpr const char *body_table = "bodies", *world_table = "worlds", *body_count = "bodies";
 
 void put_bodies(const Worlds& worlds, TableFile& file) {
   Integers counts;
   counts.reserve(worlds.size());
   for (const model::State& state : worlds) counts.push_back(state.num_bodies());
-  file.tables[world_table].push_back({num_bodies, "", std::move(counts)});
+  file.tables[world_table].push_back({body_count, "", std::move(counts)});
   for (const model::BodyColumn& column : model::body_columns) {
     Doubles values;
     for (const model::State& state : worlds) {
@@ -109,7 +109,7 @@ const Integers& counts_of(const TableFile& file, const std::string& name, std::s
 void read_bodies(const TableFile& file, Worlds& worlds) {
   for (const model::BodyColumn& column : model::body_columns) {
     const Doubles& values = file.column<double>(body_table, column.name);
-    const Integers& counts = counts_of(file, num_bodies, values.size() / column.width(), worlds.size());
+    const Integers& counts = counts_of(file, body_count, values.size() / column.width(), worlds.size());
     auto from = values.begin();
     for (std::size_t world = 0; world < worlds.size(); ++world) {
       worlds[world].resize(static_cast<int>(counts[world]));
@@ -133,11 +133,11 @@ void read_list(const model::RowList<Row>& list, const TableFile& file, Worlds& w
 }
 
 Worlds worlds_of(const TableFile& file) {
-  Worlds worlds(file.column<std::int64_t>(world_table, num_bodies).size());
+  Worlds worlds(file.column<std::int64_t>(world_table, body_count).size());
   read_bodies(file, worlds);
   model::for_each_list([&](const auto& list) { read_list(list, file, worlds); });
   const auto guards = rows_of<model::GuardMemory>(file, world_table);
-  if (guards.size() != worlds.size()) refuse(world_table, num_bodies);
+  if (guards.size() != worlds.size()) refuse(world_table, body_count);
   for (std::size_t world = 0; world < worlds.size(); ++world) worlds[world].guard = guards[world];
   if (!file.has_column("rest", "velocity")) begin_to_rest(worlds);
   return worlds;
