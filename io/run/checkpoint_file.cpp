@@ -106,7 +106,7 @@ const Integers& counts_of(const TableFile& file, const std::string& name, std::s
   return counts;
 }
 
-void read_bodies(const TableFile& file, Worlds& worlds) {
+void read_motion(const TableFile& file, Worlds& worlds) {
   for (const model::BodyColumn& column : model::body_columns) {
     const Doubles& values = file.column<double>(body_table, column.name);
     const Integers& counts = counts_of(file, body_count, values.size() / column.width(), worlds.size());
@@ -134,7 +134,7 @@ void read_list(const model::RowList<Row>& list, const TableFile& file, Worlds& w
 
 Worlds worlds_of(const TableFile& file) {
   Worlds worlds(file.column<std::int64_t>(world_table, body_count).size());
-  read_bodies(file, worlds);
+  read_motion(file, worlds);
   model::for_each_list([&](const auto& list) { read_list(list, file, worlds); });
   const auto guards = rows_of<model::GuardMemory>(file, world_table);
   if (guards.size() != worlds.size()) refuse(world_table, body_count);
