@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace pbmpi::ode {
 
 Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace pbmpi::ode {
 
 using model::Joint;
