@@ -183,22 +183,13 @@ struct RowList {
 };
 
 inline constexpr std::tuple row_lists = {
-    RowList<Rest>{"rest", "resting", [](State& state) -> auto& {return state.rest;
-}  // namespace pbmpi::model
-}
-, RowList<std::int32_t>{"joints", "joints", [](State& state) -> auto& {return state.broken_in;
-}
-}
-, RowList<ContactForce>{"contact_forces", "contact_forces",
-                        [](State& state) -> auto& {return state.memory.contacts;
-}
-}
-, RowList<JointForce>{"joint_forces", "joint_forces", [](State& state) -> auto& {return state.memory.joints;
-}
-}
-,
-}
-;
+    RowList<Rest>{"rest", "resting", [](State& state) -> std::vector<Rest>& { return state.rest; }},
+    RowList<std::int32_t>{"joints", "joints",
+                          [](State& state) -> std::vector<std::int32_t>& { return state.broken_in; }},
+    RowList<ContactForce>{"contact_forces", "contact_forces",
+                          [](State& state) -> std::vector<ContactForce>& { return state.memory.contacts; }},
+    RowList<JointForce>{"joint_forces", "joint_forces",
+                        [](State& state) -> std::vector<JointForce>& { return state.memory.joints; }}};
 
 /// Calls visit(list) for each RowList.
 template <class Visit>
