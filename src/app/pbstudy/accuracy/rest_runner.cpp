@@ -20,8 +20,9 @@ RestRunner::RestRunner(const StudyScene& scene, const stepping::StepperSettings&
 }
 
 RestRunner::Run RestRunner::run_scene(const stepping::StepperSettings& settings) const {
-  const auto world = scenes::parse_scene(scene_.source, settings.dt_s)->build(0, settings.seed);
-  const auto model = std::make_shared<const model::Model>(scenes::at_rest(*world));
+  const auto model = std::make_shared<model::Model>(
+      *scenes::parse_scene(scene_.source, settings.dt_s)->build(0, settings.seed));
+  scenes::bring_to_rest(*model);
   stability::HardCase at_rest;
   at_rest.seconds = seconds_;
   stability::CaseWatch watch(at_rest, *model, settings.dt_s);
