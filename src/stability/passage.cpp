@@ -26,7 +26,8 @@ double inner_radius(const Geom& geom) {
   };
   if (geom.shape == Shape::plane) return 0;
   if (extent.ball > 0) return extent.ball - Vec3(centre.x(), centre.y(), std::max(0.0, -side(2))).norm();
-  if (extent.disc > 0) return std::min(extent.disc - std::sqrt(centre.x() * centre.x() + centre.y() * centre.y()), side(2));
+  if (extent.disc > 0)
+    return std::min(extent.disc - std::sqrt(centre.x() * centre.x() + centre.y() * centre.y()), side(2));
   return std::min({side(0), side(1), side(2)});
 }
 

@@ -21,8 +21,10 @@ model::Geom geom(model::Shape shape, std::array<double, 3> size) {
 TEST(Drag, takes_a_quarter_of_the_surface_for_the_area) {
   EXPECT_DOUBLE_EQ(geometry::drag_area(geom(model::Shape::sphere, {2, 0, 0})), 0.47 * pi * 4);
   EXPECT_DOUBLE_EQ(geometry::drag_area(geom(model::Shape::box, {1, 2, 3})), 1.05 * (2 * (2 + 6 + 3)) / 4);
-  EXPECT_DOUBLE_EQ(geometry::drag_area(geom(model::Shape::cylinder, {1, 3, 0})), 0.82 * (2 * pi + 2 * pi * 3) / 4);
-  EXPECT_DOUBLE_EQ(geometry::drag_area(geom(model::Shape::capsule, {1, 3, 0})), 0.47 * (4 * pi + 2 * pi * 3) / 4);
+  EXPECT_DOUBLE_EQ(geometry::drag_area(geom(model::Shape::cylinder, {1, 3, 0})),
+                   0.82 * (2 * pi + 2 * pi * 3) / 4);
+  EXPECT_DOUBLE_EQ(geometry::drag_area(geom(model::Shape::capsule, {1, 3, 0})),
+                   0.47 * (4 * pi + 2 * pi * 3) / 4);
   EXPECT_EQ(geometry::drag_area(geom(model::Shape::plane, {})), 0);
 }
 
