@@ -55,7 +55,7 @@ mkdir -p "$out"
 
 # One dump a frame: callgrind writes what it has counted after each call of the stepper's advance().
 count() {
-  local stepper=$1 scene=$2 frame='pbmpi::ode::OdeStepper::advance(int, pbmpi::core::PhaseTimes&)'
+  local stepper=$1 scene=$2 frame='pbmpi::stepping::SlotStepper::advance(int, pbmpi::core::PhaseTimes&)'
   rm -f "$out/$scene-$stepper.callgrind"*
   if timeout "$limit_s" valgrind --quiet --tool=callgrind --callgrind-out-file="$out/$scene-$stepper.callgrind" \
     --toggle-collect="$frame" --dump-after="$frame" --dump-instr=yes --dump-line=no --compress-pos=no --compress-strings=no \

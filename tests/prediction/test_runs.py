@@ -118,7 +118,7 @@ class Runs(ToolTest):
 
     @unittest.skipUnless(shutil.which("objdump"), "no objdump")
     def test_instructions_and_their_mix_are_those_of_callgrind(self):
-        frame = "pbmpi::ode::OdeStepper::advance(int, pbmpi::core::PhaseTimes&)"
+        frame = "pbmpi::stepping::SlotStepper::advance(int, pbmpi::core::PhaseTimes&)"
         for scene in ("2-Cars", "CrashSk"):
             prefix = self.path(scene + ".callgrind")
             subprocess.run(["valgrind", "--quiet", "--tool=callgrind", f"--callgrind-out-file={prefix}", f"--toggle-collect={frame}",
