@@ -1,4 +1,5 @@
-/// The part of a dataset that a rank writes, and how a dataset [rows][items][...] is cut into chunks.
+/// Selects rows and items of datasets, to read and to write them, and cuts datasets [rows][items][...] into
+/// chunks.
 #pragma once
 
 #include <cstdint>

@@ -39,8 +39,9 @@ void add_columns(std::vector<Row>& rows, std::vector<TableColumn>& columns) {
   }
 }
 
-/// Inverse of add_columns(). A part of which the table has no column is 0, as in files of an older layout.
-/// Throws core::RunError where columns differ in length, or a whole number is out of range.
+/// Inverse of add_columns(). A part of which the table has no column, as in files of an older layout, is as
+/// its initialiser says. Throws core::RunError where columns differ in length, or a whole number is out of
+/// range.
 template <class Row>
 std::vector<Row> rows_of(const TableFile& file, const std::string& table) {
   std::vector<Row> rows;

@@ -153,7 +153,8 @@ def stretch_of(run, is_estimate):
         if len(lengths) == 0:
             return []
         poses = file["estimate" if is_estimate else "particles/bodies"]
-        broken_in = file["joints/broken_in"][:] if "joints/broken_in" in file else np.full(len(file["joints/kind"]), -1)
+        broken = "observables/joint/broken_in"
+        broken_in = file[broken][-1] if broken in file else np.full(len(file["joints/kind"]), -1)
         steps = file["particles/bodies/position/step"]
         stretch = []
         for row in range(run.num_recorded):

@@ -56,7 +56,7 @@ struct State {
   /// [num_joints] the step in which each joint broke, or unbroken; empty without the effect
   /// "breakable_joints". A broken joint stays broken, even where the effect is left out.
   std::vector<std::int32_t> broken_in;
-  StepMemory memory;  ///< kept by `sor` with a warm start
+  StepMemory memory;  ///< kept by `sor` with its soft law
   GuardMemory guard;
 
   int num_bodies() const { return static_cast<int>(position.size()); }

@@ -28,7 +28,7 @@ struct BodyColumn {
     return std::visit([&](auto array) { return numbers(state.*array); }, member);
   }
   std::span<const double> of(const State& state) const { return of(const_cast<State&>(state)); }
-  /// Those of one body: [width].
+  /// The numbers of one body: [width].
   std::span<double> of(State& state, int body) const {
     return of(state).subspan(width() * static_cast<std::size_t>(body), width());
   }
@@ -51,7 +51,7 @@ inline constexpr std::array<BodyColumn, 4> body_columns = {
      {"orientation", "", &State::orientation},
      {"velocity", "m s-1", &State::velocity},
      {"angular_velocity", "rad s-1", &State::angular_velocity}}};
-/// Those of the pose.
+/// The columns of the pose.
 inline constexpr std::span<const BodyColumn> pose_columns = std::span(body_columns).first<2>();
 
 /// Numbers of a body in these columns.
@@ -95,7 +95,7 @@ inline constexpr auto parts_of<Rest> = std::to_array<RowPart<Rest>>({
     {"long_knots", "", 14, [](Rest& rest) { return rest.watches[1].knots[0].position.data(); }},
     {"long_tremble", "", 2, [](Rest& rest) { return &rest.watches[1].tremble; }},
 });
-/// An entry of State::broken_in.
+/// An entry of State::broken_in, the only numbers of a state that are a row by themselves.
 template <>
 inline constexpr auto parts_of<std::int32_t> = std::to_array<RowPart<std::int32_t>>({
     {"broken_in", "", 1, [](std::int32_t& step) { return &step; }},

@@ -120,8 +120,4 @@ class SpaceStepper {
   }
 };
 
-/// Makes the engine of one world.
-using MakeSpaceStepper =
-    std::function<std::unique_ptr<SpaceStepper>(std::shared_ptr<const model::Model> model)>;
-
 }  // namespace pbmpi::stepping

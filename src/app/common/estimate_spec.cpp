@@ -22,6 +22,7 @@ StepperSettings default_estimate(const StepperSettings& precise) {
     *substeps = std::max(1, *substeps / substeps_in_one);
   estimate.residuals = false;
   estimate.contacts = false;
+  estimate.profile = false;
   return estimate;
 }
 

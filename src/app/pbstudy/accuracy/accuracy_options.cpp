@@ -37,8 +37,7 @@ po::options_description options_description() {
        "leave out cases with more iterations x substeps")  //
       ("rest-seconds", po::value<double>()->default_value(3)->value_name("S"),
        "time for which the scene at rest is watched under each setting: what falls, creeps or gains energy; "
-       "0: "
-       "none");
+       "0: none");
   po::options_description how =
       how_to_measure({"of the scene's variation and of the reference's row order",
                       "how often each frame is timed, the process being alone on its core", 5,
