@@ -108,7 +108,7 @@ core::Vec3 Attributes::direction(std::string_view name, const core::Vec3& fallba
 
 core::Quat Attributes::turn(std::string_view name, bool real_last) {
   std::vector<double> q = numbers(name, 4, 4);
-  if (real_last) std::ranges::rotate(q, q.end() - 1);
+  if (real_last) std::rotate(q.begin(), q.end() - 1, q.end());
   const Eigen::Quaterniond value(q[0], q[1], q[2], q[3]);
   if (!(value.norm() > 0))
     fail(name, core::in_quotes(name) + " is zero and turns nothing; give a quaternion that is not");

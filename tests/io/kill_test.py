@@ -45,9 +45,9 @@ def kill_one(mpiexec, writer, folder, attempt, rng, within_s):
     os.remove(path)
     if os.path.exists(path + ".xdmf"):
         os.remove(path + ".xdmf")
-    lock = os.path.join(folder, f".run{attempt}.h5.lock")
-    if os.path.exists(lock):  # a killed run's, held by nobody
-        os.remove(lock)
+    for name in (f".run{attempt}.h5.lock", f".run{attempt}.h5.xdmf.lock"):
+        if os.path.exists(os.path.join(folder, name)):  # a killed run's, held by nobody
+            os.remove(os.path.join(folder, name))
     sample_check.only_file_in(folder, ["log"])
     return committed
 
