@@ -54,7 +54,7 @@ arm64() {
 
 # Unit tests (one program a folder, no ranks), then every scene in some settings, and each program on one.
 sanitize() {
-  local tests=(core model geometry effects stepping analysis estimate scenes app pbstudy pbreport io_html io_table_file
+  local tests=(core model geometry effects stepping analysis estimate scenes app pbstudy pbreport io_table_file
     io_rows partition rebalance rebalancer space_plan)
   cmake --preset asan-ubsan -DPBMPI_BUILD_TESTS=ON -DPBMPI_BUILD_BENCHMARKS=OFF
   cmake --build --preset asan-ubsan --target pbmpi pbstudy pbreport "${tests[@]/%/_test}"

@@ -87,7 +87,7 @@ class Recipes(unittest.TestCase):
         return dict(package.cmake_args())
 
     def test_spack_sets_options_that_the_build_has(self):
-        cmake = "".join((SOURCE / folder / "CMakeLists.txt").read_text(encoding="utf-8") for folder in (".", "io/html", "src/api/python"))
+        cmake = "".join((SOURCE / folder / "CMakeLists.txt").read_text(encoding="utf-8") for folder in (".", "src/app/reports", "src/api/python"))
         for name, value in self.cmake_args("+python").items():
             self.assertRegex(cmake, rf"\({name}\b", name)
             if name.endswith("_JS"):  # where Debian's package, unpacked, has the file

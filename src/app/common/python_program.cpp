@@ -49,13 +49,14 @@ void become(std::vector<std::string> command) {
 
 int exit_code_of(std::vector<std::string> command, const std::string& output) {
   const std::vector<char*> argv = pointers(command);
-  const core::Descriptor out(output, O_WRONLY | O_CREAT | O_TRUNC);
-  const pid_t pid = out.is_open() ? fork() : -1;
+  core::Descriptor out;
+  if (!output.empty()) out = core::Descriptor(output, O_WRONLY | O_CREAT | O_TRUNC);
+  const pid_t pid = output.empty() || out.is_open() ? fork() : -1;
   if (pid < 0) throw not_started(command.front());
   if (pid == 0) {  // nothing may be allocated
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     setpgid(0, 0);
-    if (dup2(out.get(), STDOUT_FILENO) >= 0) execvp(argv.front(), argv.data());
+    if (!out.is_open() || dup2(out.get(), STDOUT_FILENO) >= 0) execvp(argv.front(), argv.data());
     _exit(127);
   }
   int status = 0;

@@ -17,8 +17,8 @@ std::vector<std::string> python_command(const std::string& package, const std::v
 [[noreturn]] void become(std::vector<std::string> command);
 
 /// Runs another program to its end: its exit code, or 128 and the signal that ended it; 127 if it cannot be
-/// started. What it prints goes to the file `output`. It ends with this program, and gets no signals that are
-/// sent to this program's group. Throws core::RunError.
-int exit_code_of(std::vector<std::string> command, const std::string& output);
+/// started. What it prints goes to the file `output`; without one, to where this program prints. It ends with
+/// this program, and gets no signals that are sent to this program's group. Throws core::RunError.
+int exit_code_of(std::vector<std::string> command, const std::string& output = "");
 
 }  // namespace pbmpi::app

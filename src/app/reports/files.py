@@ -129,6 +129,7 @@ def write_file(path, text):
                 stream.writelines(data)
             return
         target, mode = os.path.realpath(path), None
+        require(not os.path.islink(target), f"{path}: it cannot be written: it is a link that leads back to itself")
         if os.path.exists(target):
             require(not h5py.is_hdf5(target), f"{path}: it is an HDF5 file, which a text does not replace; name another file")
             require(os.access(target, os.W_OK), f"{path}: it cannot be written: Permission denied")

@@ -1,4 +1,4 @@
-"""What a field of the map of hard cases opens on the page: its curves, and a replay of its bodies (io/html/web/map.js, data.js).
+"""What a field of the map of hard cases opens on the page: its curves, and a replay of its bodies (web/map.js, data.js).
 
 Arrays are in base64, numbers little-endian and in single precision, but for indices.
 """

@@ -1,4 +1,4 @@
-"""Self-contained HTML pages of charts and tables, from the templates that pbmpi's other pages have (io/html/web)."""
+"""Self-contained HTML pages of charts and tables, from the templates below web."""
 import base64
 import errno
 import html
@@ -10,16 +10,16 @@ import re
 from reports import document
 from reports.files import write_file
 
-# Beside the package in a build and once installed; in the sources, where the templates and Debian's JavaScript are.
+# JavaScript is beside the package in a build and once installed; in the sources it is where Debian has it.
 PACKAGE = pathlib.Path(__file__).absolute().parent
-WEB = [PACKAGE / "web", PACKAGE.parents[2] / "io/html/web"]
+WEB = [PACKAGE / "web", PACKAGE / "web/charts"]
 JAVASCRIPT = [PACKAGE / "javascript", *(pathlib.Path("/usr/share/javascript") / name for name in ("chart.js", "three/build", "three/examples/js/controls"))]
 LIBRARIES = {"chart_js": "chart.min.js", "three_js": "three.min.js", "orbit_controls_js": "OrbitControls.js"}
 
 
 def asset(name):
     """The text of a file of the templates; `name` as a template has it: theme_css."""
-    folders = JAVASCRIPT if name in LIBRARIES else [folder / below for folder in WEB for below in ("", "charts")]
+    folders = JAVASCRIPT if name in LIBRARIES else WEB
     file = LIBRARIES.get(name) or name[::-1].replace("_", ".", 1)[::-1]
     for folder in folders:
         if (folder / file).is_file():

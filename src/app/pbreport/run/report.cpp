@@ -3,10 +3,9 @@
 #include <ostream>
 
 #include "app/common/options.h"
-#include "app/pbreport/run/facts.h"
 #include "app/pbreport/run/options.h"
+#include "app/pbreport/run/page.h"
 #include "app/pbreport/run/summary_from_file.h"
-#include "io/html/page.h"
 #include "io/run/xdmf.h"
 
 namespace pbmpi::app {
@@ -19,11 +18,8 @@ core::ExitCode run_report(const ReportOptions& options, std::ostream& out) {
   const io::RunData run = io::read_run(options.file);
   const RunSummary summary = summary_from_file(run, options.file);
   if (options.html) {
-    io::html::PageOptions page;
-    page.facts = facts_of(summary);
-    page.budget_s = summary.budget_s;
-    page.maker = version_line("pbreport");
-    io::html::write_page(*options.html, run, page);
+    const core::ExitCode code = write_page(options.file, *options.html, summary);
+    if (code != core::ExitCode::done) return code;
   }
   if (options.xdmf) io::write_xdmf(options.file, *options.xdmf);
   if (options.json) {

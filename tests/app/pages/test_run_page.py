@@ -1,10 +1,10 @@
-"""The page in headless Chromium: it draws, plays, scrubs, switches worlds, and asks the network for nothing.
+"""The page of a run in headless Chromium: it draws, plays, scrubs, switches worlds, and asks the network for nothing.
 
 One file, since starting the browser costs more than all its checks."""
 
-import argparse
 import base64
 import os
+import pathlib
 import struct
 import subprocess
 import sys
@@ -13,23 +13,34 @@ import time
 import unittest
 import zlib
 
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(SOURCE / "src/app"), str(SOURCE / "tests/app/reports"), str(SOURCE / "tests/app/pages")]
+import browser  # noqa: E402
+import page_sample  # noqa: E402
+from reports.one_run import run_page  # noqa: E402
+from reports.runs import Run  # noqa: E402
+
 SKIPPED = 77
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.common.keys import Keys
-    from selenium.webdriver.support.ui import Select, WebDriverWait
-except ImportError:
-    print("python3-selenium is not installed: skipped")
+if not browser.is_there():
+    print("chromium, chromium-driver or python3-selenium is not installed: skipped")
     sys.exit(SKIPPED)
 
-CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
-FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
-         "--disable-dev-shm-usage", "--window-size=1000,900"]
+from selenium import webdriver  # noqa: E402
+from selenium.webdriver.chrome.service import Service  # noqa: E402
+from selenium.webdriver.common.by import By  # noqa: E402
+from selenium.webdriver.common.keys import Keys  # noqa: E402
+from selenium.webdriver.support.ui import Select, WebDriverWait  # noqa: E402
+
+FLAGS = [flag for flag in browser.FLAGS if "window-size" not in flag] + ["--window-size=1000,900"]
+STILLS = str(SOURCE / "jobs/stills.sh")
 WORLDS, FRAMES = 4, 8
-WAIT_S = 60  # software rendering beside other work; nothing here measures time
+
+
+def write_page(path, worlds=WORLDS, frames=FRAMES, most_bytes=run_page.MOST_POSE_BYTES):
+    """The page of an artificial run, whose file lies beside it."""
+    run = Run(page_sample.write(path + ".h5", worlds, frames))
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(run_page.text_of(run, page_sample.SUMMARY, most_bytes))
 
 
 def pixels(png):
@@ -106,13 +117,13 @@ class PageTest(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.page = os.path.join(cls.folder.name, "page.html")
-        subprocess.run([OPTIONS.fixture, cls.page, str(WORLDS), str(FRAMES), "28000000"], check=True)
+        write_page(cls.page)
         options = webdriver.ChromeOptions()
-        options.binary_location = CHROMIUM
+        options.binary_location = browser.CHROMIUM
         for flag in FLAGS + ["--user-data-dir=" + os.path.join(cls.folder.name, "profile")]:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-        cls.driver = webdriver.Chrome(service=Service(DRIVER), options=options)
+        cls.driver = webdriver.Chrome(service=Service(browser.DRIVER), options=options)
 
     @classmethod
     def tearDownClass(cls):
@@ -127,7 +138,7 @@ class PageTest(unittest.TestCase):
         self.wait(lambda: self.js("return Boolean(window.pbreplay && pbreplay.ready)"))
 
     def wait(self, condition):
-        WebDriverWait(self.driver, WAIT_S, poll_frequency=0.1).until(lambda _: condition())
+        WebDriverWait(self.driver, browser.WAIT_S, poll_frequency=0.1).until(lambda _: condition())
 
     def js(self, script, *args):
         return self.driver.execute_script(script, *args)
@@ -208,7 +219,7 @@ class PageTest(unittest.TestCase):
 
     def test_shows_the_recorded_pose(self):
         self.open("#world=0&frame=4")
-        # page_sample.cpp: the car starts at x = -4 m and drives at 20 m/s; frame 4 is step 12 at dt = 0.01 s.
+        # The car starts at x = -4 m and drives at 20 m/s; frame 4 is step 12 at dt = 0.01 s.
         x, y, z = self.js("return pbreplay.bodyPose(0).position")
         self.assertEqual(self.js("return pbreplay.bodyName(0)"), "car.chassis")
         self.assertAlmostEqual(x, -4 + 20 * 0.12, places=5)  # single precision
@@ -318,14 +329,14 @@ class PageTest(unittest.TestCase):
 
     def test_says_what_a_small_page_leaves_out(self):
         small = os.path.join(self.folder.name, "small.html")
-        subprocess.run([OPTIONS.fixture, small, "4", "8", "40000"], check=True)
+        write_page(small, most_bytes=40000)
         self.open(page=small)
         self.assertIn("of 4 worlds", self.element("replay-note").text)
         self.assertLess(self.js("return pbreplay.numWorlds"), 4)
 
     def test_a_run_without_frames_shows_its_start(self):
         empty = os.path.join(self.folder.name, "empty.html")
-        subprocess.run([OPTIONS.fixture, empty, "1", "0", "28000000"], check=True)
+        write_page(empty, worlds=1, frames=0)
         self.open(page=empty)
         self.assertEqual(self.js("return pbreplay.numFrames"), 1)
         self.assertGreater(share(colours(self.snapshot()), is_car), 0.01)
@@ -336,25 +347,18 @@ class StillsTest(unittest.TestCase):
     def test_renders_one_picture_a_frame(self):
         with tempfile.TemporaryDirectory() as folder:
             page = os.path.join(folder, "run.html")
-            subprocess.run([OPTIONS.fixture, page, "2", "8", "28000000"], check=True)
-            subprocess.run([OPTIONS.stills, "--world", "0", "--size", "400x225", page, folder, "0", "8"], check=True)
+            write_page(page, worlds=2)
+            subprocess.run([STILLS, "--world", "0", "--size", "400x225", page, folder, "0", "8"], check=True)
             first, last = (read(os.path.join(folder, "run-%s.png" % f)) for f in ("000", "008"))
             self.assertEqual(pixels(first)[:2], (400, 225))
             self.assertGreater(share(colours(first), is_car), 0.01)
             self.assertNotEqual(first, last)
 
     def test_refuses_a_missing_page(self):
-        done = subprocess.run([OPTIONS.stills, "no-such-page.html", tempfile.gettempdir(), "0"], capture_output=True, text=True)
+        done = subprocess.run([STILLS, "no-such-page.html", tempfile.gettempdir(), "0"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("no-such-page.html", done.stderr)
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
-    parser.add_argument("--fixture", required=True)
-    parser.add_argument("--stills", required=True)
-    OPTIONS, rest = parser.parse_known_args()
-    if not (os.path.exists(CHROMIUM) and os.path.exists(DRIVER)):
-        print("chromium or chromium-driver is not installed: skipped")
-        sys.exit(SKIPPED)
-    unittest.main(argv=[sys.argv[0]] + rest, verbosity=2)
+    unittest.main(verbosity=2)
