@@ -175,10 +175,16 @@ int actor_of_body(const Model& model, int body) {
   return index_fault(body, model.bodies.size(), "body") ? no_actor : model.bodies[body].actor;
 }
 
+/// None of a joint between two actors, which is the scene's.
+int actor_of(const Model& model, const Joint& joint) {
+  const int actor = actor_of_body(model, joint.body_a);
+  return joint.body_b == no_body || actor_of_body(model, joint.body_b) == actor ? actor : no_actor;
+}
+
 int actor_of(const Model& model, const Event& event) {
   if (event.kind == EventKind::launch) return actor_of_body(model, event.body);
   if (index_fault(event.joint, model.joints.size(), "joint")) return no_actor;
-  return actor_of_body(model, model.joints[event.joint].body_a);
+  return actor_of(model, model.joints[event.joint]);
 }
 
 void validate_world(const Model& model, const std::string& where) {
@@ -226,7 +232,7 @@ void validate(const Model& model, const std::string& where) {
   }
   validate_pair_materials(model, where);
   for (const Joint& joint : model.joints) {
-    check_of_actor(model, actor_of_body(model, joint.body_a),
+    check_of_actor(model, actor_of(model, joint),
                    [&] { validate_joint(model, joint, where + ": joint '" + joint.name + "'"); });
   }
   for (std::size_t i = 0; i < model.events.size(); ++i) {

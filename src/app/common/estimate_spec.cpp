@@ -1,6 +1,7 @@
 #include "app/common/estimate_spec.h"
 
 #include <algorithm>
+#include <set>
 
 #include "app/common/step_arguments.h"
 #include "core/error.h"
@@ -20,6 +21,7 @@ StepperSettings default_estimate(const StepperSettings& precise) {
   estimate.iterations = 1;
   for (int* substeps : {&estimate.substeps, &estimate.law.most_substeps})
     *substeps = std::max(1, *substeps / substeps_in_one);
+  estimate.law.newton = false;  // it takes far longer than the sweeps
   estimate.residuals = false;
   estimate.contacts = false;
   estimate.profile = false;
@@ -35,7 +37,9 @@ StepperSettings estimate_settings(const std::string& setting, const StepperSetti
   core::require_input(words.flags.empty(), where +
                                                ": write it as STEPPER iterations=N precision=NAME, each "
                                                "of which may be left out");
+  std::set<std::string> seen;
   for (const auto& [name, value] : words.options) {
+    core::require_input(seen.insert(name).second, where + ": " + name + " stands there twice");
     core::require_input(name == "iterations" || name == "precision",
                         where + ": " + name +
                             ": an estimate has a stepper, iterations and a precision of its own; all else is "

@@ -51,6 +51,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
                                      const po::positional_options_description& positional,
                                      const std::string& last) {
   po::variables_map values;
+  const std::string in_checkpoint = "the options in the checkpoint: ";
   std::string where;  // what is being read, with ": "; empty for the command line
   try {
     po::store(po::command_line_parser(help_arguments(args).args)
@@ -66,13 +67,15 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
       po::store(po::parse_config_file(lines, description), values);
       where = "";
     }
-    where = "the options in the checkpoint: ";
+    where = in_checkpoint;
     std::istringstream lines(last);
     po::store(po::parse_config_file(lines, description), values);
     where = "";
     po::notify(values);
   } catch (const po::unknown_option& error) {
-    throw core::InputError(where + unknown_option_message(error.get_option_name(), description));
+    throw core::InputError(
+        where + unknown_option_message(error.get_option_name(), description) +
+        (where == in_checkpoint ? " (another version of pbmpi wrote it, and can go on from it)" : ""));
   } catch (const po::too_many_positional_options_error&) {
     throw core::InputError("a word without a dash stands on the command line; see --help");
   } catch (const po::error& error) {

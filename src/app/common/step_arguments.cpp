@@ -40,7 +40,8 @@ SettingWords setting_words(const std::string& text) {
     else
       words.flags.push_back(word);
   }
-  std::ranges::stable_partition(words.options, [](const auto& option) { return option.first == "law"; });
+  std::stable_partition(words.options.begin(), words.options.end(),
+                        [](const auto& option) { return option.first == "law"; });
   return words;
 }
 

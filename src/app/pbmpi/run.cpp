@@ -20,6 +20,7 @@
 #include "app/pbmpi/work.h"
 #include "app/pbmpi/world_results.h"
 #include "app/summary/live_summary.h"
+#include "core/error.h"
 #include "core/hash.h"
 #include "core/system/awaited.h"
 #include "core/system/thread_pool.h"
@@ -268,6 +269,15 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   return result.stopped ? ExitCode::stopped : ExitCode::done;
 }
 
+/// Ranks may have other environments.
+void set_wait_limit() {
+  const char* text = std::getenv("PBMPI_WAIT_LIMIT");
+  if (text == nullptr) return;
+  const int limit_s = stepping::read_number<int>(text, "PBMPI_WAIT_LIMIT");
+  core::require_input(limit_s >= 1, "PBMPI_WAIT_LIMIT is " + std::string(text) + "; give seconds, 1 or more");
+  core::set_wait_limit(limit_s);
+}
+
 }  // namespace
 
 ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>& args) {
@@ -289,8 +299,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
       break;
   }
   const SignalRequests signals;
-  if (const char* limit_s = std::getenv("PBMPI_WAIT_LIMIT"))
-    core::set_wait_limit(stepping::read_number<int>(limit_s, "PBMPI_WAIT_LIMIT"));
+  mpi::agree_on_errors(comm, set_wait_limit);
   std::optional<core::Awaited> awaited("all ranks to read the scene");
   Work work = options.run.resume ? resumed_work(comm, args, options) : new_work(comm, options);
   Cut cut = decompose(work.spec, mpi::space_costs(model::make_space_map(*work.first_world)), comm.size());
