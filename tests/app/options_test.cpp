@@ -157,7 +157,8 @@ TEST(Options, an_estimate_that_cannot_be_is_refused_by_name) {
   EXPECT_NE(refused("substeps=2").find("substeps: an estimate has a stepper, iterations and a precision"),
             std::string::npos);
   EXPECT_NE(refused("sor single").find("STEPPER iterations=N precision=NAME"), std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "quick"}).find("without a dash"), std::string::npos);
+  EXPECT_EQ(refused("iterations=2 iterations=3"),
+            "--feec='iterations=2 iterations=3': iterations stands there twice");
   EXPECT_NE(refusal({"--scene", "Fake", "--solver-seed", "-x"}).find("solver-seed"), std::string::npos);
 }
 

@@ -169,7 +169,7 @@ class Refused(ProgramTest):
         def lose_a_column(file):
             del file["bodies/velocity"]
         self.check(["other.h5", "hash", "damaged"], "--resume", self.changed(move_a_body), ranks=2)
-        self.check(["other.h5", "/bodies/position", "damaged"], "--resume", self.changed(lose_a_world))
+        self.check(["other.h5", "/worlds/bodies", "damaged"], "--resume", self.changed(lose_a_world))
         self.check(["other.h5", "/bodies/velocity"], "--resume", self.changed(lose_a_column))
 
     def test_another_layout_and_another_version_of_the_program(self):

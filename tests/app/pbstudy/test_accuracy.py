@@ -145,7 +145,7 @@ class Accuracy(ProgramTest):
         self.assertEqual(json.loads(wins.stdout)["iterations"], 7, "the command line wins")
         with open(self.path("table.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
-        self.assertEqual(len(rows), 4 + 2 + 2 * 3 * 2 * 2 + 1 + 2 + 1,
+        self.assertEqual(len(rows), 4 + 2 + 2 * 2 * 2 + 1 + 2 + 1,
                          "settings; with the soft law; estimates; the reference, seeds, half the step")
         with open(self.path("page.html"), encoding="utf-8") as file:
             page = file.read()
