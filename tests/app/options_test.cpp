@@ -159,6 +159,9 @@ TEST(Options, an_estimate_that_cannot_be_is_refused_by_name) {
   EXPECT_NE(refused("sor single").find("STEPPER iterations=N precision=NAME"), std::string::npos);
   EXPECT_EQ(refused("iterations=2 iterations=3"),
             "--feec='iterations=2 iterations=3': iterations stands there twice");
+  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "sor", "iterations=3"}).find("without a dash"),
+            std::string::npos)
+      << "the words of a setting are one word of the command line";
   EXPECT_NE(refusal({"--scene", "Fake", "--solver-seed", "-x"}).find("solver-seed"), std::string::npos);
 }
 
