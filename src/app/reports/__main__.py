@@ -10,7 +10,7 @@ if __package__ in (None, ""):
     sys.path[0] = str(pathlib.Path(__file__).absolute().parents[1])
 
 try:
-    from reports.files import BadInput
+    from reports.files import BadInput, end_without_leftovers
     from reports.command_line import PrintError
 except ImportError as error:
     print(f"pbreport: this report needs Python's {error.name}, which is not there; install it (Debian: python3-{error.name})", file=sys.stderr)
@@ -28,10 +28,13 @@ def fail(message, code):
 
 
 def main(words):
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends without a word, as other programs do
-    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
-    if sys.stdout is not None:
-        sys.stdout.reconfigure(encoding="utf-8", errors="replace")  # names of files may be no UTF-8
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end_without_leftovers)  # without a word, as other programs do
+    for number in (signal.SIGPIPE, signal.SIGCHLD):
+        signal.signal(number, signal.SIG_DFL)
+    for stream in (sys.stdout, sys.stderr):
+        if stream is not None:
+            stream.reconfigure(encoding="utf-8", errors="replace")  # names of files may be no UTF-8
     warnings.simplefilter("ignore")  # numpy's, about numbers that are not finite
     try:
         report = importlib.import_module(f"reports.{MODULES[words[0]]}")

@@ -1,6 +1,8 @@
 """Reads the files of pbmpi and pbstudy, and writes what a report leaves behind."""
+import contextlib
 import dataclasses
 import os
+import signal
 import tempfile
 
 import h5py
@@ -139,12 +141,25 @@ def write_file(path, text):
         raise BadInput(f"{path}: it cannot be written: {error.strerror}") from None
 
 
+unfinished = set()  # names of files that are being written
+
+
+def end_without_leftovers(number, _frame=None):
+    """Ends this process as the signal does by default, and removes what it was writing."""
+    for path in unfinished:
+        with contextlib.suppress(OSError):
+            os.unlink(path)
+    signal.signal(number, signal.SIG_DFL)
+    os.kill(os.getpid(), number)
+
+
 def replace(target, data, mode):
     """Writes parts of bytes beside the target and renames, so that a kill leaves the old file or the new one."""
     if mode is None:
         mode = 0o666 & ~current_umask()
     folder, name = os.path.split(target)
     descriptor, temporary = tempfile.mkstemp(prefix=f".{name}.", dir=folder)
+    unfinished.add(temporary)
     try:
         with open(descriptor, "wb") as stream:
             stream.writelines(data)
@@ -155,6 +170,8 @@ def replace(target, data, mode):
     except BaseException:
         os.unlink(temporary)
         raise
+    finally:
+        unfinished.discard(temporary)
 
 
 def current_umask():

@@ -2,7 +2,10 @@
 import math
 import os
 import pathlib
+import signal
+import subprocess
 import sys
+import tempfile
 import unittest
 
 import numpy as np
@@ -12,7 +15,7 @@ sys.path.insert(0, str(SOURCE / "src/app"))
 
 from reports import tables  # noqa: E402
 from reports.files import BadInput  # noqa: E402
-from reports.one_run import csv_report, diff, error_sets, processes  # noqa: E402
+from reports.one_run import csv_report, diff, error_sets, processes, recorded  # noqa: E402
 
 
 class Text(unittest.TestCase):
@@ -52,6 +55,39 @@ class Processes(unittest.TestCase):
         self.assertEqual(list(processes.in_order([lambda: str(os.getpid())])), [str(os.getpid())], "a single one needs no other process")
         with self.assertRaises(ZeroDivisionError):
             list(processes.in_order([lambda: "1", lambda: str(1 // 0)]))
+
+
+class Interrupted(unittest.TestCase):
+    PROGRAM = """
+import os, signal, sys
+from reports import files
+signal.signal(signal.SIGTERM, files.end_without_leftovers)
+def parts():
+    yield b"begun"
+    os.kill(os.getpid(), signal.SIGTERM)
+    yield b"never"
+files.replace(sys.argv[1], parts(), None)
+"""
+
+    def test_a_signal_leaves_no_unfinished_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            ended = subprocess.run([sys.executable, "-c", self.PROGRAM, os.path.join(folder, "out.csv")], env={**os.environ, "PYTHONPATH": str(SOURCE / "src/app")},
+                                   timeout=60)
+            self.assertEqual((ended.returncode, os.listdir(folder)), (-signal.SIGTERM, []))
+
+
+class OtherJoints(unittest.TestCase):
+    @staticmethod
+    def run_with(names, held):
+        run = recorded.RecordedRun.__new__(recorded.RecordedRun)
+        run.joint_name, run.joint_world, run.held = names, np.zeros(len(names), int), lambda row: np.array(held, bool)
+        return run
+
+    def test_joints_are_found_by_name_and_what_a_run_lacks_does_not_hold(self):
+        run, other = self.run_with(["a", "b"], [True, False]), self.run_with(["b", "c", "a"], [True] * 3)
+        self.assertEqual(run.held_of(other, 0).tolist(), [False, False, True])
+        self.assertEqual(run.held_of(run, 0).tolist(), [True, False])
+        self.assertEqual(run.held_of(self.run_with([], []), 0).tolist(), [])
 
 
 class Categories(unittest.TestCase):

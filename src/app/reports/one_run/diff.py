@@ -46,8 +46,8 @@ class Invariants:
             "stretch": {"max": self.max_stretch, "bands": self.stretch}}
 
 
-def invariants_of(run, segments):
-    parts = [segments.stretch(run.poses(row), run.held(row)) for row in run.measured_rows(run.num_recorded)]
+def invariants_of(run):
+    parts = [run.segments.stretch(run.poses(row), run.held(row)) for row in run.measured_rows(run.num_recorded)]
     stretch = np.concatenate([np.zeros(0), *parts])
     largest = {name: float(np.fmax.reduce(run.joined(name)[run.measured], initial=0.0)) for name in ("max_penetration", "joint_gap")}
     energy = run.joined("energy").tolist() or [0.0]
@@ -79,9 +79,8 @@ class Comparison:
             self.defect = pose_errors(run, run, own_rows, "estimate").summary()
             self.estimate_drift = pose_errors(run, reference, self.rows, "estimate").summary()
         self.floor = [pose_errors(other, reference, self._rows(other)).summary() for other in floor]
-        self.invariants = [invariants_of(one, reference.segments) for one in (run, reference)]
-        self.constraints = {"run": constraints_of(run, reference.joints, self.rows),
-                            "reference": constraints_of(reference, reference.joints, self.rows)}
+        self.invariants = [invariants_of(one) for one in (run, reference)]
+        self.constraints = {"run": constraints_of(run, self.rows), "reference": constraints_of(reference, self.rows)}
         self.broken = compare_breaks(run, reference)
         self.same_hash = run.attributes.get("state_hash", "") == reference.attributes.get("state_hash", "")
 
@@ -93,7 +92,8 @@ def compare_breaks(run, reference):
     """As in the document's joints_broken."""
     num_frames = min(run.num_frames, reference.num_frames)
     known = [one.broken_joints() for one in (run, reference)]
-    in_run, in_reference = ([event for event in events if event["frame"] < num_frames] for events in known)
+    in_run, in_reference = ([event for event in events if event["frame"] < one.first_frame + num_frames]
+                            for one, events in zip((run, reference), known))
     unknown = [one.num_events("joint_broken") - len(events) for one, events in zip((run, reference), known)]
     in_run_only, in_reference_only = missing(in_reference, in_run), missing(in_run, in_reference)
     return {"in_both": len(in_run) - len(in_run_only), "in_run_only": in_run_only, "in_reference_only": in_reference_only,

@@ -62,7 +62,7 @@ def pose_errors(run, reference, rows, group="particles/bodies"):
         ours, theirs = run.poses(row, group), reference.poses(row)
         found.append((distance(ours.position, theirs.position)[:-1], rotation_angle(ours.orientation, theirs.orientation)[:-1],
                       distance(joints.gaps(ours), joints.gaps(theirs)), np.abs(joints.bends(ours) - joints.bends(theirs)),
-                      run.held(row) & reference.held(row)))
+                      run.held_of(reference, row) & reference.held(row)))
     empty = [np.zeros((0, len(reference.body_name)))] * 2 + [np.zeros((0, len(joints)))] * 2 + [np.zeros((0, len(joints)), bool)]
     return PoseErrors(*(map(np.array, zip(*found)) if found else empty))
 
@@ -119,10 +119,10 @@ class Contacts:
         return [place[order[first:last]] for first, last in zip(ends, ends[1:])]
 
 
-def constraints_of(run, joints, rows):
-    """Constraints of a run whose joints are those of the reference; `rows`: those for by_frame. A joint counts for the actor of its first
+def constraints_of(run, rows):
+    """Constraints of a run; `rows`: those for by_frame. A joint counts for the actor of its first
     body, a contact for both actors."""
-    measured = run.measured_rows(run.num_recorded)
+    joints, measured = run.joints, run.measured_rows(run.num_recorded)
     wanted = sorted({*rows.tolist(), *measured.tolist()})
     poses = [run.poses(row) for row in wanted]
     shape = (len(wanted), len(joints))

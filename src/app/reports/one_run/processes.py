@@ -2,6 +2,8 @@
 import itertools
 import os
 
+from reports import files
+
 
 def in_order(makers):
     """Yields the text that each maker() gives, in their order, made by as many processes as there are cores. A maker prints nothing and reads no
@@ -27,6 +29,7 @@ def start(maker):
     if child:
         os.close(writing)
         return child, reading
+    files.unfinished.clear()  # the parent's
     try:
         os.close(reading)
         with open(writing, "wb") as stream:
