@@ -187,8 +187,9 @@ TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
 TEST(RunOptions, stand_in_the_file_unless_they_change_neither_it_nor_a_result) {
   // The scene and its table of parameters have entries of their own; the others say where a run writes, what
   // it prints, and when it stops.
-  const std::set<std::string_view> others = {"scene",    "parameters", "output", "no-output",       "report",
-                                             "max-time", "checkpoint", "resume", "checkpoint-every"};
+  const std::set<std::string_view> others = {"scene",   "parameters",      "output",   "no-output",
+                                             "no-xdmf", "report",          "max-time", "checkpoint",
+                                             "resume",  "checkpoint-every"};
   std::set<std::string_view> left_out;
   for (const RunOption& option : run_options()) {
     if (!option.recorded) left_out.insert(option.name);

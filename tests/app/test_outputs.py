@@ -172,7 +172,9 @@ class NothingOverwritten(ProgramTest):
         self.assertIn("no sidecar", result.stderr)
         self.assertEqual(digest(self.path("run.xdmf")), sidecar)
 
-    def test_the_sidecar_costs_nothing_else_where_it_cannot_be_written(self):
+    def test_the_sidecar_can_be_left_out_and_costs_nothing_else_where_it_cannot_be_written(self):
+        self.assertEqual(self.pbmpi(1, *SHORT, "--output", "none.h5", "--no-xdmf").returncode, 0)
+        self.assertFalse(os.path.exists(self.path("none.xdmf")))
         os.mkdir(self.path("dir.xdmf"))
         self.write("text.xdmf", "notes of my own")
         for name in ("dir", "text"):

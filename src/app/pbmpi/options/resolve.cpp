@@ -88,7 +88,7 @@ void require_separate_files(std::span<const core::NamedPath> named, const RunSpe
     if (!path.written) paths.push_back(path);
   }
   if (spec.output) paths.push_back({"--output", *spec.output, true});
-  if (spec.sidecar) paths.push_back({"the sidecar for ParaView", *spec.sidecar, true});
+  if (spec.sidecar) paths.push_back({"the sidecar for ParaView (--no-xdmf)", *spec.sidecar, true});
   // Without --checkpoint a saved run replaces the checkpoint that it came from.
   paths.push_back({"--checkpoint", spec.checkpoint.path, true});
   if (!spec.checkpoint.resumed_from.empty() &&
@@ -175,7 +175,7 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.stepper = resolve_step(options.step, spec, defaults);
   spec.output = resolve_output(options.run, scene, from);
   spec.checkpoint = resolve_checkpoint(spec, scene, from);
-  if (spec.output) spec.sidecar = sidecar_of(*spec.output);
+  if (spec.output && !spec.no_xdmf) spec.sidecar = sidecar_of(*spec.output);
   require_separate_files(options.paths, spec);
   require_input(spec.total_frames() > from.frames,
                 "--resume " + from.path + ": all " + std::to_string(spec.total_frames()) + " frames (" +

@@ -163,10 +163,13 @@ std::vector<RunOption> output_rows() {
        .group = group,
        .letter = 'o',
        .placeholder = "FILE",
-       .meaning =
-           "HDF5 file of the run, with a sidecar for ParaView beside it, <output without .h5>.xdmf; default: "
-           "<scene>.h5"},
+       .meaning = "HDF5 file of the run; default: <scene>.h5"},
       {.name = "no-output", .member = &RunSpec::no_output, .group = group, .meaning = "write no file"},
+      {.name = "no-xdmf",
+       .member = &RunSpec::no_xdmf,
+       .group = group,
+       .meaning = "write no sidecar for ParaView; without this it stands beside the file, <output without "
+                  ".h5>.xdmf"},
       {.name = "record-every",
        .member = &RunSpec::record_every,
        .group = group,

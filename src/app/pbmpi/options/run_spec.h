@@ -56,7 +56,7 @@ struct RunSpec {
   std::optional<int> ranks_per_world;                      ///< of worlds that are cut
 
   std::optional<std::string> output;  ///< nothing: no file is written
-  bool no_output = false;
+  bool no_output = false, no_xdmf = false;
   int record_every = 1;
   bool record_islands = false, record_contacts = false, record_residuals = false;
   ReportFormat report = ReportFormat::text;
