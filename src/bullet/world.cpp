@@ -58,21 +58,6 @@ void World::set_velocities(std::span<const int> bodies, const model::State& stat
   }
 }
 
-bool World::may_be_fast() const {
-  for (int i = 0; i < bodies_.size(); ++i) {
-    const model::Vec3 v = vec3(bodies_[i].getLinearVelocity()), w = vec3(bodies_[i].getAngularVelocity());
-    if (!slow_bounds_[static_cast<std::size_t>(i)].holds(v, w, settings_.dt_s)) return true;
-  }
-  return false;
-}
-
-void World::add_speculative_contacts(effects::FastBodies& fast, const model::State& before) {
-  ahead_.clear();
-  fast.add(
-      before, [](int, int) { return true; }, ahead_);
-  contacts_.make_ahead(ahead_);
-}
-
 /// Stops as soon as a body has a non-finite number.
 void World::advance(int num_steps, core::LapTimer& timer) {
   for (int i = 0; i < num_steps && !is_lost_; ++i)
@@ -141,18 +126,6 @@ void World::settle() {
 
 bool World::is_finite() const {
   return std::ranges::all_of(rules_.awake(), [&](int body) { return bodies_.is_finite(body); });
-}
-
-void World::note_centres() {
-  centres_.clear();
-  for (int body = 0; body < bodies_.size(); ++body)
-    centres_.push_back(vec3(bodies_[body].getCenterOfMassPosition()));
-}
-
-void World::show_contacts() {
-  shown_.clear();
-  contacts_.show(centres_, shown_.contacts);
-  for (int joint = 0; joint < joints_.size(); ++joint) shown_.joints.push_back(loads_.force(joint));
 }
 
 }  // namespace pbmpi::bullet

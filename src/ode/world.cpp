@@ -185,21 +185,6 @@ void World::collide() {
   } while (rules_.after_collision(*this));
 }
 
-bool World::may_be_fast() const {
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const dReal *v = dBodyGetLinearVel(bodies_[i]), *w = dBodyGetAngularVel(bodies_[i]);
-    if (!slow_bounds_[i].holds({v[0], v[1], v[2]}, {w[0], w[1], w[2]}, settings_.dt_s)) return true;
-  }
-  return false;
-}
-
-void World::add_speculative_contacts(effects::FastBodies& fast, const model::State& before) {
-  ahead_.clear();
-  fast.add(
-      before, [](int, int) { return true; }, ahead_);
-  contacts_.make_ahead(world_.get(), ahead_, settings_.dt_s);
-}
-
 /// Steps the islands outside of a field of interest on their own: ODE steps what is enabled.
 void World::solve() {
   const core::PhaseMark mark(core::PhaseMark::MarkedPhase::forward_step);
@@ -222,18 +207,6 @@ void World::solve_enabled(int iterations) {
   } else {
     dWorldStep(world_.get(), settings_.dt_s);
   }
-}
-
-void World::note_centres() {
-  centres_.clear();
-  for (const dBodyID body : bodies_) centres_.push_back(vec3(dBodyGetPosition(body)));
-}
-
-void World::show_contacts() {
-  shown_.clear();
-  contacts_.show(centres_, shown_.contacts);
-  for (std::size_t joint = 0; joint < joints_.size(); ++joint)
-    shown_.joints.push_back(loads_.force(static_cast<int>(joint)));
 }
 
 }  // namespace pbmpi::ode

@@ -42,10 +42,20 @@ class World final : public stepping::JointedWorld {
   const std::vector<stepping::Touch>& touches() const override { return contacts_.touches(); }
   double deepest_m() const override { return contacts_.deepest_m(); }
   void forget_contacts() override;
+  model::Vec3 centre(int body) const override { return vec3(dBodyGetPosition(bodies_[body])); }
+  Velocities velocities(int body) const override {
+    return {vec3(dBodyGetLinearVel(bodies_[body])), vec3(dBodyGetAngularVel(bodies_[body]))};
+  }
+  void make_ahead(const std::vector<model::Contact>& contacts) override {
+    contacts_.make_ahead(world_.get(), contacts, settings_.dt_s);
+  }
+  void append_contacts(std::span<const model::Vec3> before,
+                       std::vector<model::LoadedContact>& contacts) const override {
+    contacts_.show(before, contacts);
+  }
+  model::JointForce joint_force(int joint) const override { return loads_.force(joint); }
   void store(std::span<const int> bodies, model::State& state) const override;
   void set_velocities(std::span<const int> bodies, const model::State& state) override;
-  bool may_be_fast() const override;
-  void add_speculative_contacts(effects::FastBodies& fast, const model::State& before) override;
   effects::Reaction reaction(int joint) const override { return loads_.reaction(joint); }
   void show_awake() override;
   void show_asleep(std::span<const int> bodies) override;
@@ -58,8 +68,6 @@ class World final : public stepping::JointedWorld {
   void set_broken(const std::vector<std::int32_t>& broken_in);
   void solve();
   void solve_enabled(int iterations);
-  void note_centres();
-  void show_contacts();
   void profile_collision(stepping::StepProfile& profile);
   void profile_islands(stepping::StepProfile& profile);
   double time_solve(const std::vector<dBodyID>& enabled, int iterations, const model::State& before);

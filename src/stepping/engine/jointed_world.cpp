@@ -33,8 +33,8 @@ void require_drivable(const model::Model& model) {
 JointedWorld::JointedWorld(const model::Model& model, MotorTargets& targets, const model::State& state,
                            std::int64_t step, const StepperSettings& settings, std::optional<int> iterations)
     : EngineWorld(model, targets, state, step, settings, iterations),
-      slow_bounds_(effects::slow_bounds(model)),
-      row_counter_(model) {
+      row_counter_(model),
+      slow_bounds_(effects::slow_bounds(model)) {
   for (int j = 0; j < model.num_joints(); ++j) {
     const model::Joint& joint = model.joints[static_cast<std::size_t>(j)];
     model::require_kind_has(joint);
@@ -147,6 +147,32 @@ const std::vector<model::GeomPair>& JointedWorld::awake_pairs(const std::vector<
     if (awake(pair.first) || awake(pair.second)) awake_pairs_.push_back(pair);
   }
   return awake_pairs_;
+}
+
+bool JointedWorld::may_be_fast() const {
+  for (int body = 0; body < model_->num_bodies(); ++body) {
+    const Velocities v = velocities(body);
+    if (!slow_bounds_[static_cast<std::size_t>(body)].holds(v.linear, v.angular, settings_.dt_s)) return true;
+  }
+  return false;
+}
+
+void JointedWorld::add_speculative_contacts(effects::FastBodies& fast, const model::State& before) {
+  ahead_.clear();
+  fast.add(
+      before, [](int, int) { return true; }, ahead_);
+  make_ahead(ahead_);
+}
+
+void JointedWorld::note_centres() {
+  centres_.clear();
+  for (int body = 0; body < model_->num_bodies(); ++body) centres_.push_back(centre(body));
+}
+
+void JointedWorld::show_contacts() {
+  shown_.clear();
+  append_contacts(centres_, shown_.contacts);
+  for (int joint = 0; joint < model_->num_joints(); ++joint) shown_.joints.push_back(joint_force(joint));
 }
 
 void JointedWorld::count() {

@@ -50,7 +50,22 @@ class JointedWorld : public EngineWorld {
   virtual double deepest_m() const = 0;
   /// The step has no contacts.
   virtual void forget_contacts() = 0;
+  /// [m] Of a body's centre of mass.
+  virtual model::Vec3 centre(int body) const = 0;
+  struct Velocities {
+    model::Vec3 linear, angular;  ///< [m/s], [rad/s]
+  };
+  virtual Velocities velocities(int body) const = 0;
+  /// Adds speculative contacts, gaps that may close in the step.
+  virtual void make_ahead(const std::vector<model::Contact>& contacts) = 0;
+  /// Appends the contacts of the step that was solved, with their forces. `before`: note_centres().
+  virtual void append_contacts(std::span<const model::Vec3> before,
+                               std::vector<model::LoadedContact>& contacts) const = 0;
+  /// What a joint exerted in that step.
+  virtual model::JointForce joint_force(int joint) const = 0;
 
+  bool may_be_fast() const final;
+  void add_speculative_contacts(effects::FastBodies& fast, const model::State& before) final;
   void fire_events(std::int64_t step) final;
   std::span<const effects::BodyPair> touching() final;
   bool is_driven(int joint) const final { return targets_->drive(*model_, step_ + 1, joint); }
@@ -64,12 +79,12 @@ class JointedWorld : public EngineWorld {
   const std::vector<model::GeomPair>& awake_pairs(const std::vector<model::GeomPair>& pairs);
   /// Sets rows and islands of `counts_`.
   void count();
+  /// Around the solve of a step whose contacts are to be shown: notes where bodies are, and fills `shown_`.
+  void note_centres();
+  void show_contacts();
 
-  std::vector<effects::SlowBound> slow_bounds_;  ///< [bodies]
   RowCounter row_counter_;
-  std::vector<model::Contact> ahead_;  ///< scratch of add_speculative_contacts()
-  std::vector<model::Vec3> centres_;   ///< [bodies] with `contacts`: before the last step
-  bool moved_ = true;                  ///< since the last read()
+  bool moved_ = true;  ///< since the last read()
 
  private:
   struct Held {
@@ -80,10 +95,13 @@ class JointedWorld : public EngineWorld {
   void set_motor(int joint, int axis, const model::AxisMotor& motor);
   void hold(int joint, int axis, const model::AxisMotor& motor);
 
-  std::vector<Held> held_;                    ///< motors with a hold rate
-  std::size_t next_event_ = 0;                ///< in Model::events
-  std::vector<model::GeomPair> awake_pairs_;  ///< scratch
-  std::vector<effects::BodyPair> touching_;   ///< scratch
+  std::vector<Held> held_;                       ///< motors with a hold rate
+  std::size_t next_event_ = 0;                   ///< in Model::events
+  std::vector<effects::SlowBound> slow_bounds_;  ///< [bodies]
+  std::vector<model::Vec3> centres_;             ///< [bodies] at note_centres()
+  std::vector<model::Contact> ahead_;            ///< scratch
+  std::vector<model::GeomPair> awake_pairs_;     ///< scratch
+  std::vector<effects::BodyPair> touching_;      ///< scratch
 };
 
 }  // namespace pbmpi::stepping
