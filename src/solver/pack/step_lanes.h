@@ -34,10 +34,7 @@ class StepLanes {
         laws_(laws, passes, {}) {}
 
   /// Pack::step().
-  void run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
-    begin(contacts, parameters, times);
-    finish(times);
-  }
+  void run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times);
 
   double h() const { return static_cast<double>(laws_.h()); }  ///< [s] length of the last step's substeps
   stepping::Residuals residuals(int world) const { return residuals_[static_cast<std::size_t>(world)]; }
@@ -45,8 +42,7 @@ class StepLanes {
  private:
   using Batch = typename JointBatches<T>::Batch;
 
-  void begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times);
-  void finish(core::PhaseTimes& times);
+  void begin(Contacts contacts, const StepParameters& parameters);
   void sort_contacts(Contacts contacts);
 
   void touch_trees(int world, std::span<const model::Contact> contacts);
@@ -355,28 +351,18 @@ void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
   trees_.emplace(worlds_.places.shapes(), solver == stepping::JointSolver::tree, worlds_.joints);
 }
 
-/// Everything before the iterations of the last substep.
+/// Everything before the sweeps of the first substep.
 template <class T>
-void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
+void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters) {
   choose_trees(parameters.joint_solver);
   parameters_ = parameters;
   laws_ = {pack_laws_, passes_, parameters};
-  core::LapTimer timer(times);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
   sort_contacts(contacts);
   twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
   substep_ = 0;
   start_step();
-  timer.lap(core::Phase::rows);
-  while (substep_ + 1 < parameters.substeps) {
-    end_sweeps();
-    end_substep<false>();
-    timer.lap(core::Phase::solve);
-    ++substep_;
-    start_substep();
-    timer.lap(core::Phase::rows);
-  }
 }
 
 template <class T>
@@ -393,12 +379,21 @@ void StepLanes<T>::finish_by_newton() {
   twists_.start(worlds_.bodies);
 }
 
-/// Ends the last substep.
 template <class T>
-void StepLanes<T>::finish(core::PhaseTimes& times) {
+void StepLanes<T>::run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
   core::LapTimer timer(times);
+  begin(contacts, parameters);
+  timer.lap(core::Phase::rows);
+  while (substep_ + 1 < parameters.substeps) {
+    end_sweeps();
+    end_substep<false>();
+    timer.lap(core::Phase::solve);
+    ++substep_;
+    start_substep();
+    timer.lap(core::Phase::rows);
+  }
   end_sweeps();
-  if (parameters_.residuals) {
+  if (parameters.residuals) {
     residuals_.clear();
     for (int world = 0; world < worlds_.num_worlds(); ++world) residuals_.push_back(measure_residuals(world));
   }
