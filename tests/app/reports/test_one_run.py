@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -16,6 +17,7 @@ sys.path.insert(0, str(SOURCE / "src/app"))
 from reports import tables  # noqa: E402
 from reports.files import BadInput  # noqa: E402
 from reports.one_run import csv_report, diff, error_sets, processes, recorded  # noqa: E402
+from reports.one_run.rigid import Poses  # noqa: E402
 
 
 class Text(unittest.TestCase):
@@ -81,13 +83,21 @@ class OtherJoints(unittest.TestCase):
     def run_with(names, held):
         run = recorded.RecordedRun.__new__(recorded.RecordedRun)
         run.joint_name, run.joint_world, run.held = names, np.zeros(len(names), int), lambda row: np.array(held, bool)
+        run.body_name, poses = [], Poses(np.zeros((1, 3)), np.array([[1.0, 0, 0, 0]]))
+        run.poses = lambda row, group="": poses
+        run.joints = unittest.mock.Mock(gaps=lambda poses: np.zeros((len(names), 3)), bends=lambda poses: np.zeros(len(names)),
+                                        __len__=lambda joints: len(names))
         return run
+
+    def held(self, run, other):
+        return error_sets.pose_errors(run, other, [0]).held.tolist()
 
     def test_joints_are_found_by_name_and_what_a_run_lacks_does_not_hold(self):
         run, other = self.run_with(["a", "b"], [True, False]), self.run_with(["b", "c", "a"], [True] * 3)
-        self.assertEqual(run.held_of(other, 0).tolist(), [False, False, True])
-        self.assertEqual(run.held_of(run, 0).tolist(), [True, False])
-        self.assertEqual(run.held_of(self.run_with([], []), 0).tolist(), [])
+        self.assertEqual(self.held(run, other), [[False, False, True]])
+        self.assertEqual(self.held(run, run), [[True, False]])
+        self.assertEqual(self.held(run, self.run_with([], [])), [[]])
+        self.assertEqual(self.held(self.run_with([], []), run), [[False, False]])
 
 
 class Categories(unittest.TestCase):

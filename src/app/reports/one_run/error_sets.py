@@ -56,13 +56,15 @@ class PoseErrors:
 
 
 def pose_errors(run, reference, rows, group="particles/bodies"):
-    """PoseErrors of a run against the precise poses of a reference in these rows; joints are those of the reference."""
+    """PoseErrors of a run against the precise poses of a reference in these rows; joints are those of the reference, and one that the run
+    lacks does not hold."""
     joints, found = reference.joints, []
+    places = run.places_of(reference)
     for row in rows:
         ours, theirs = run.poses(row, group), reference.poses(row)
         found.append((distance(ours.position, theirs.position)[:-1], rotation_angle(ours.orientation, theirs.orientation)[:-1],
                       distance(joints.gaps(ours), joints.gaps(theirs)), np.abs(joints.bends(ours) - joints.bends(theirs)),
-                      run.held_of(reference, row) & reference.held(row)))
+                      np.append(run.held(row), False)[places] & reference.held(row)))
     empty = [np.zeros((0, len(reference.body_name)))] * 2 + [np.zeros((0, len(joints)))] * 2 + [np.zeros((0, len(joints)), bool)]
     return PoseErrors(*(map(np.array, zip(*found)) if found else empty))
 

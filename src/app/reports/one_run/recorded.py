@@ -48,14 +48,11 @@ class RecordedRun(RunTables):
         """bool [J]: the joints that are not broken at the end of a recorded frame."""
         return (self._broken_in < 0) | (self._broken_in >= self.recorded_step[row])
 
-    def held_of(self, other, row):
-        """bool [J]: held(row) of another run's joints, in its order. Joints that this run lacks do not hold."""
-        held = self.held(row)
+    def places_of(self, other):
+        """int [J] of another run: the place of each of its joints among this run's; -1: this run lacks it."""
         ours, theirs = (list(zip(np.asarray(run.joint_world).tolist(), run.joint_name)) for run in (self, other))
-        if ours == theirs:
-            return held
         place = {joint: index for index, joint in enumerate(ours)}
-        return np.array([joint in place and held[place[joint]] for joint in theirs], bool)
+        return np.array([place.get(joint, -1) for joint in theirs], int)
 
     def poses(self, row, group="particles/bodies"):
         """At the end of a recorded frame; `group` "estimate": as FEEC estimated them."""
