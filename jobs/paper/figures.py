@@ -3,22 +3,19 @@ import dataclasses
 import itertools
 import math
 
-import numpy as np
-
-from reports.files import RUN, open_file, require
+from reports.files import require
+from reports.one_run.error_sets import ORIENTATION_BANDS, POSITION_BANDS
+from reports.one_run.recorded import RecordedRun
 
 import runs
 
 REFERENCE, FLOOR, FEEC = "Iter20", "seed", "FEEC quick x 1"
 SCENES = ("CrashWa", "Environ", "Battle", "Fight", "Battle2")  # those of the paper's Figures 8 and 9
-POSITION_BANDS = ("< 1 cm", "1-10 cm", "10-100 cm", "> 100 cm", "inf/NaN")
-ORIENTATION_BANDS = ("< 5 %", "5-25 %", "25-50 %", "> 50 %", "inf/NaN")
 # The errors of `pbreport diff`: name, unit, title of the panel, what the table adds to it, bands.
 ERRORS = (("body_position", "m", "Geometric, position", "", POSITION_BANDS),
           ("body_orientation", "rad", "Geometric, orientation", "", ORIENTATION_BANDS),
           ("joint_position", "m", "Constraint, position", " (anchor gap)", POSITION_BANDS),
           ("joint_orientation", "rad", "Constraint, orientation", " (axis angle)", ORIENTATION_BANDS))
-LEAST_SEGMENT_M = 0.01  # two joints at one point have no segment between them
 
 
 @dataclasses.dataclass
@@ -118,55 +115,13 @@ def mean_ratio(scenes, label):
     return sum(ratios) / len(ratios) if ratios else 0
 
 
-def rotated(turns, vectors):
-    """Vectors [n][3] turned by unit quaternions [n][4] (w, x, y, z)."""
-    across = np.cross(turns[:, 1:], vectors)
-    return vectors + 2 * turns[:, :1] * across + 2 * np.cross(turns[:, 1:], across)
-
-
-def human_segments(file):
-    """The lengths of the human segments in the model, and of both their ends the joint, the neighbour that it joins, and the joint's
-    anchor in the neighbour: [n] lengths, two of ([n] joints, [n] bodies, [n][3] anchors)."""
-    kinds = file["particles/bodies/kind"].asstr()[:]
-    bodies = np.stack((file["joints/body_a"][:], file["joints/body_b"][:]))
-    anchors = np.stack((file["joints/anchor_a"][:], file["joints/anchor_b"][:]))
-    has_anchor = np.isin(file["joints/kind"].asstr()[:], ("ball", "hinge", "universal", "hinge2")) & (bodies[1] >= 0)
-    lengths, ends = [], ([], [])
-    for body in np.flatnonzero(kinds == "human"):
-        joints = np.flatnonzero(has_anchor & (bodies == body).any(axis=0))
-        sides = (bodies[1, joints] == body).astype(int)  # 0: the body is the joint's first
-        for one, two in itertools.combinations(range(len(joints)), 2):
-            length = math.dist(anchors[sides[one], joints[one]], anchors[sides[two], joints[two]])
-            if length < LEAST_SEGMENT_M:
-                continue
-            lengths.append(length)
-            for end, at in zip(ends, (one, two)):
-                end.append((joints[at], bodies[1 - sides[at], joints[at]], anchors[1 - sides[at], joints[at]]))
-    return np.array(lengths), [[np.array(column) for column in zip(*end)] for end in ends]
-
-
 def stretch_of(run, is_estimate):
     """|distance / length - 1| of the joints of each human segment, as its neighbours have them, in all measured frames that were
     recorded; NaN if it is not finite. Segments of broken joints are left out."""
-    with open_file(run.path, RUN) as file:
-        lengths, ends = human_segments(file)
-        if len(lengths) == 0:
-            return []
-        poses = file["estimate" if is_estimate else "particles/bodies"]
-        broken = "observables/joint/broken_in"
-        broken_in = file[broken][-1] if broken in file else np.full(len(file["joints/kind"]), -1)
-        steps = file["particles/bodies/position/step"]
-        stretch = []
-        for row in range(run.num_recorded):
-            if not run.measured[(row + 1) * run.record_every - 1]:
-                continue
-            position, orientation = poses["position/value"][row], poses["orientation/value"][row]
-            places = [position[bodies] + rotated(orientation[bodies], anchors) for _, bodies, anchors in ends]
-            with np.errstate(invalid="ignore"):
-                found = np.abs(np.linalg.norm(places[0] - places[1], axis=1) / lengths - 1)
-            holds = np.all([(broken_in[joints] < 0) | (broken_in[joints] >= steps[row]) for joints, _, _ in ends], axis=0)
-            stretch += np.where(np.isfinite(found), found, np.nan)[holds].tolist()
-    return stretch
+    recorded = RecordedRun(run.path)
+    rows = recorded.measured_rows(recorded.num_recorded) if len(recorded.segments.length) else []
+    group = "estimate" if is_estimate else "particles/bodies"
+    return [share for row in rows for share in recorded.segments.stretch(recorded.poses(row, group), recorded.held(row)).tolist()]
 
 
 @dataclasses.dataclass
