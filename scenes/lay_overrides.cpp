@@ -1,4 +1,4 @@
-#include "scenes/lay_overrides.h"
+#include "scenes/scene_toml.h"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scenes/format/table_reader.h"
-#include "scenes/scene_toml.h"
 
 namespace pbmpi::scenes {
 namespace {

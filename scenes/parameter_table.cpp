@@ -9,7 +9,6 @@
 #include "core/text.h"
 #include "scenes/format/csv_reader.h"
 #include "scenes/format/table_reader.h"
-#include "scenes/lay_overrides.h"
 #include "scenes/scene_toml.h"
 
 namespace pbmpi::scenes {

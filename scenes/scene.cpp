@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "core/error.h"
-#include "scenes/lay_overrides.h"
 #include "scenes/scene_plan.h"
 #include "scenes/scene_toml.h"
 

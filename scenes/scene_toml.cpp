@@ -12,7 +12,6 @@
 #include "core/text.h"
 #include "scenes/actors/model_file.h"
 #include "scenes/format/table_reader.h"
-#include "scenes/lay_overrides.h"
 #include "scenes/xml/element.h"
 
 namespace pbmpi::scenes {

@@ -1,4 +1,4 @@
-/// Turns a scene's text, with its bases, into one TOML table.
+/// Turns a scene's text, with its bases and overrides, into one TOML table.
 #pragma once
 
 #include <toml++/toml.h>
@@ -21,6 +21,18 @@ toml::table parse_text(const SceneSource& source);
 
 /// Lays a table over its base as parse_with_base() does.
 void lay_over(toml::table& base, toml::table&& over);
+
+/// Lays each override over `scene` as a scene file is laid over its base (lay_over()), so that readers find
+/// it where a file would have it, and report an error at the override's place. Throws core::InputError for a
+/// key that names no actor or joint of the scene (with the nearest names) or that all worlds of a run share,
+/// and for a value that is not TOML. Errors that only a reader can see (keys of an actor, ranges) are left to
+/// the readers.
+void lay_overrides(toml::table& scene, const Overrides& overrides);
+
+/// A value as TOML. Its texts are quoted, on one line, with escapes for every character that needs one: a
+/// multi-line literal could not hold ''' and would lose a leading line break.
+std::string toml_text(const toml::node& value);
+std::string toml_string(std::string_view text);
 
 /// The model files that a scene's actors name, and those that these include, whose texts the scene does not
 /// have. None for a scene that is a model itself.

@@ -20,11 +20,6 @@ inline constexpr std::array<const char*, 24> contact_columns = {
     "depth",      "mu",         "arm_x",      "arm_y",     "arm_z",     "normal_force",
     "friction_x", "friction_y", "friction_z", "impulse_x", "impulse_y", "impulse_z"};
 
-/// Their units.
-inline constexpr std::array<const char*, contact_columns.size()> contact_units = {
-    "",  "", "",  "",  "",  "",  "m", "m", "m", "",    "",    "",
-    "m", "", "m", "m", "m", "N", "N", "N", "N", "N s", "N s", "N s"};
-
 /// The rows of one frame in /contacts/point, and their checksum (core/system/seal.h).
 struct ContactSpan {
   std::int64_t first = 0, count = 0;

@@ -67,16 +67,14 @@ std::vector<model::State> gather_states(const Communicator& comm, std::span<cons
   return states;
 }
 
-std::vector<double> share_numbers(const Communicator& comm, std::vector<double> numbers) {
+model::State share_state(const Communicator& comm, const model::State& state) {
+  std::vector<double> numbers;
+  if (comm.is_root()) numbers = pack(state);
   std::int64_t size = std::ssize(numbers);
   comm.bcast_value(size);
   numbers.resize(static_cast<std::size_t>(size));
   comm.bcast(std::span(numbers));
-  return numbers;
-}
-
-model::State share_state(const Communicator& comm, const model::State& state) {
-  return unpack(share_numbers(comm, comm.is_root() ? pack(state) : std::vector<double>()));
+  return unpack(numbers);
 }
 
 }  // namespace pbmpi::mpi

@@ -26,8 +26,6 @@ std::map<int, model::State> scatter_states(const Communicator& comm, std::span<c
 std::vector<model::State> gather_states(const Communicator& comm, std::span<const int> placement,
                                         const std::function<const model::State&(int world)>& state_of);
 
-/// Collective. Copies root's numbers, however many, to every rank; `numbers` is read on root only.
-std::vector<double> share_numbers(const Communicator& comm, std::vector<double> numbers);
 /// Collective. Copies root's state to every rank; `state` is read on root only.
 model::State share_state(const Communicator& comm, const model::State& state);
 
