@@ -65,7 +65,7 @@ class TableWriter {
 
 /// The attribute filetype of all files of pbstudy, and the major and minor version of their layout.
 inline constexpr const char* study_filetype = "pbmpi-study";
-inline constexpr std::array<std::int64_t, 2> study_version = {1, 7};
+inline constexpr std::array<std::int64_t, 2> study_version = {1, 8};
 
 /// About as many bytes as a table file has.
 inline constexpr std::int64_t table_bytes = std::int64_t{1} << 20;

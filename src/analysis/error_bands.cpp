@@ -24,6 +24,8 @@ ErrorSummary summarize(std::span<const double> errors, int (*band_of)(double)) {
   if (finite.empty()) return summary;
   summary.rms = std::sqrt(squares / static_cast<double>(finite.size()));
   summary.max = *std::max_element(finite.begin(), finite.end());
+  summary.median = core::quantile(finite, 0.5);
+  summary.p90 = core::quantile(finite, 0.9);
   summary.p99 = core::quantile(std::move(finite), 0.99);
   return summary;
 }

@@ -28,11 +28,11 @@ int position_band(double error_m);
 /// Index of the category of an angle [rad]; half a turn is in the category 25-50 %.
 int orientation_band(double angle_rad);
 
-/// A set of errors, each in one category. rms, p99 and max are over the finite errors, 0 if there is none. A
+/// A set of errors, each in one category. All numbers are over the finite errors, 0 if there is none. A
 /// broken joint has no error and is a class of its own, so that every method has as many entries.
 struct ErrorSummary {
-  std::int64_t count = 0;            ///< over all categories, and broken joints
-  double rms = 0, p99 = 0, max = 0;  ///< [m] or [rad]
+  std::int64_t count = 0;                                 ///< over all categories, and broken joints
+  double rms = 0, median = 0, p90 = 0, p99 = 0, max = 0;  ///< [m] or [rad]
   BandCounts bands{};
   std::int64_t broken = 0;
 };

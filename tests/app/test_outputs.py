@@ -15,7 +15,7 @@ from harness import PBMPI, PBREPORT, TIMEOUT_S, ProgramTest, end_group, rank_pid
 SHORT = ["--scene", "CrashSk", "--frames", "5", "--quiet"]
 LONG = ["--scene", "CrashSk", "--replicas", "4", "--frames", "1000000", "--record-every", "1000", "--quiet"]
 STUDY = ["pbstudy", "accuracy", "--scene", "CrashSk", "--frames", "2", "--floor-seeds", "1", "--iterations", "5",
-         "--reference-iterations", "50", "--reference-check", "0", "--quiet"]
+         "--nature-steps", "12", "--quiet"]
 SCENE = 'title = "mine"\nbase = "CrashSk"\n'
 
 

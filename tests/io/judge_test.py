@@ -107,7 +107,7 @@ def judge_sleepers(programs, schema):
 
 def judge_study(programs):
     programs.run("pbstudy", "accuracy", "--scene", "CrashSk", "--iterations", 1, 4, "--substeps", 1, 2, "--repeats", 2,
-                 "--reference-iterations", 200, "--reference-residual", 0, "--rest-seconds", 0, "--output", "study.h5")
+                 "--nature-steps", 96, "--rest-seconds", 0, "--output", "study.h5")
     times = [point[0] for point in judge.judge_study(programs.path("study.h5"), 1)["CrashSk"]["front"]]
     assert len(times) > 1, "a front of one point would show little"
     for budget_s in (0.5 * min(times), 0.5 * (times[0] + times[-1]), 2 * max(times)):

@@ -23,7 +23,7 @@ KINDS = {
     "spaces": ("pbmpi", SPACES),
     "checkpoints": ("pbmpi", [*WORLDS, "--checkpoint", "ck.h5", "--checkpoint-every", "0.1"]),
     "study": ("pbstudy", ["accuracy", "--scene", "CrashSk", "--frames", "5", "--iterations", "5", "--repeats", "1",
-                          "--floor-seeds", "1", "--reference-iterations", "20", "--reference-residual", "0", "--reference-check", "0",
+                          "--floor-seeds", "1", "--nature-steps", "6",
                           "--own-iterations", "0", "--rest-seconds", "0"]),
 }
 SAME = ("particles/bodies/position/value", "particles/bodies/orientation/value", "particles/bodies/velocity/value",

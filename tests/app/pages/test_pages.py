@@ -81,7 +81,7 @@ class Files:
 
     def studies(self):
         self.run("pbstudy", "accuracy", "--scene", "CrashSk", "--iterations", 1, 20, "--substeps", 1, 2, "--frames", 2, "--repeats", 1,
-                 "--reference-iterations", 80, "--reference-residual", "1mm", "--reference-check", 4, "--floor-seeds", 1, "--rest-seconds", 0, "--output", "accuracy.h5", "--quiet")
+                 "--nature-steps", 96, "--floor-seeds", 1, "--rest-seconds", 0, "--output", "accuracy.h5", "--quiet")
         self.page("accuracy", "accuracy.h5", "--quiet", "--budget", "1000s")
         self.run("pbstudy", "effects", "--scene", "CrashSk", "Battle", "--stepper", "sor", "--frames", 1, "--repeats", 1, "--floor-seeds", 1,
                  "--output", "effects.h5", "--quiet")

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "app/pbstudy/accuracy/accuracy_table.h"
+#include "app/pbstudy/accuracy/nature_rows.h"
 #include "app/pbstudy/accuracy/own_solution.h"
-#include "app/pbstudy/accuracy/yardsticks.h"
 #include "app/pbstudy/study/engine_differences.h"
 #include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
@@ -13,43 +13,44 @@ namespace {
 
 using io::Parameter;
 
-/// Each rank that has cases of a scene makes the scene's reference and own solutions itself.
-std::vector<CaseResult> run_cases(const AccuracyOptions& options, const std::vector<AccuracyCase>& cases,
-                                  StudyRunner& runner) {
-  std::optional<SolvedReference> reference;
+using AccuracyOutcomes = CaseOutcomes<CaseResult, NatureFrameRow, NatureBodyRow>;
+
+/// Each rank that has cases of a scene finds the scene's nature and own solutions itself.
+AccuracyOutcomes run_cases(const AccuracyOptions& options, const std::vector<AccuracyCase>& cases,
+                           StudyRunner& runner) {
+  std::optional<Nature> nature;
   std::optional<RestRunner> rest;
   std::optional<OwnSolutions> own;
-  int reference_scene = -1;
+  int scene_of_nature = -1;
   const auto cost = [&](const AccuracyCase& one) { return cost_of(one, runner.scene(one.scene)); };
-  const auto run_one = [&](std::size_t i) {
-    const StudyScene& scene = runner.scene(cases[i].scene);
-    if (cases[i].scene != reference_scene) {
-      reference = solve_reference(scene, reference_solve(scene, options));
-      rest.emplace(scene, reference_settings(scene, options), options.rest_s);
-      own.emplace(scene, *reference, cases, options);
-      reference_scene = cases[i].scene;
+  const auto run_one = [&](std::size_t i) -> CaseOutcome<CaseResult, NatureFrameRow, NatureBodyRow> {
+    const AccuracyCase& one = cases[i];
+    const StudyScene& scene = runner.scene(one.scene);
+    if (one.scene != scene_of_nature) {
+      nature = find_nature(scene, options.nature);
+      rest.emplace(scene, resting_settings(scene, options.nature), options.rest_s);
+      own.emplace(scene, *nature, cases, options);
+      scene_of_nature = one.scene;
     }
-    if (is_own(cases[i].kind)) return own->judge(static_cast<int>(i));
-    if (is_yardstick(cases[i].kind)) return run_yardstick(cases[i], scene, *reference, options);
-    return run_case(cases[i], scene, *reference, *rest, options.repeats, own->ends(cases[i].own));
+    if (one.kind == CaseKind::nature)
+      return {account_of(*nature), {frame_rows(*nature, scene.warmup), body_rows(*nature, scene.warmup)}};
+    if (is_own(one.kind)) return {own->judge(static_cast<int>(i))};
+    return {run_case(one, scene, *nature, *rest, options.repeats, own->ends(one.own))};
   };
-  return runner.run<CaseResult>(cases, cost, run_one).results;
+  return runner.run<CaseResult, NatureFrameRow, NatureBodyRow>(cases, cost, run_one);
 }
 
 StudyContent content(const AccuracyOptions& options, const std::vector<StudyScene>& scenes,
-                     const std::vector<AccuracyCase>& cases, const std::vector<CaseResult>& results) {
+                     const std::vector<AccuracyCase>& cases, const AccuracyOutcomes& outcomes) {
   StudyContent content;
-  content.parameters = {
-      Parameter::of("reference_stepper", "sor"),
-      Parameter::of("reference_precision", "double"),
-      Parameter::of("reference_iterations", std::int64_t{options.reference_iterations}),
-      Parameter::of("reference_residual", options.reference_residual_m),
-      Parameter::of("reference_most_iterations", std::int64_t{options.reference_most_iterations}),
-      Parameter::of("reference_check", std::int64_t{options.reference_check}),
-      Parameter::of("own_iterations", std::int64_t{options.own_iterations}),
-      Parameter::of("own_most_iterations", std::int64_t{options.own_most_iterations}),
-      Parameter::of("rest_seconds", options.rest_s)};
-  content.cases = case_columns(scenes, cases, results);
+  content.parameters = {Parameter::of("nature_steps", std::int64_t{options.nature.most_steps}),
+                        Parameter::of("nature_error", options.nature.error_m),
+                        Parameter::of("own_iterations", std::int64_t{options.own_iterations}),
+                        Parameter::of("own_most_iterations", std::int64_t{options.own_most_iterations}),
+                        Parameter::of("rest_seconds", options.rest_s)};
+  content.cases = case_columns(scenes, cases, outcomes.results);
+  content.tables =
+      nature_tables(scenes, cases, outcomes.rows_of<NatureFrameRow>(), outcomes.rows_of<NatureBodyRow>());
   std::vector<SceneModel> models;
   models.reserve(scenes.size());
   for (const StudyScene& scene : scenes)
@@ -70,8 +71,8 @@ core::ExitCode run_accuracy(const mpi::Communicator& comm, const std::vector<std
   StudyRunner runner(comm, "accuracy", options);
   const std::vector<AccuracyCase> cases = make_cases(runner.scenes(), options);
   runner.open_output();
-  const std::vector<CaseResult> results = run_cases(options, cases, runner);
-  runner.write([&] { return content(options, runner.scenes(), cases, results); });
+  const AccuracyOutcomes outcomes = run_cases(options, cases, runner);
+  runner.write([&] { return content(options, runner.scenes(), cases, outcomes); });
   return core::ExitCode::done;
 }
 

@@ -91,43 +91,10 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   });
 }
 
-/// The largest world that `direct` can solve in seconds: its cost is cubic in the rows of an island.
-constexpr int most_bodies_for_direct = 60;
-
-/// ODE with the scene's step: direct where worlds are small, otherwise quick with the iterations of the
-/// check.
-StepperSettings second_method(const StudyScene& scene, const StepperSettings& reference,
-                              const AccuracyOptions& options) {
-  const int num_bodies =
-      scenes::parse_scene(scene.source, scene.dt_s)->build(0, reference.seed)->num_bodies();
-  StepperSettings second = default_settings(
-      num_bodies <= most_bodies_for_direct ? stepping::StepperKind::direct : stepping::StepperKind::quick);
-  second.dt_s = reference.dt_s;
-  second.seed = reference.seed;
-  if (second.kind == stepping::StepperKind::quick)
-    second.iterations = options.reference_check * options.reference_iterations;
-  return second;
-}
-
-void add_yardsticks(int index, const StudyScene& scene, const AccuracyOptions& options,
-                    std::vector<AccuracyCase>& cases) {
-  const AccuracyCase reference{index, CaseKind::reference, reference_settings(scene, options),
-                               steps_in_frame(scene, scene.dt_s)};
-  const auto add = [&](CaseKind kind) -> AccuracyCase& {
-    cases.push_back(reference);
-    cases.back().kind = kind;
-    return cases.back();
-  };
-  add(CaseKind::reference);
-  for (int i = 1; i <= options.floor_seeds; ++i)
-    add(CaseKind::floor).stepper.seed += static_cast<std::uint64_t>(i);
-  if (options.reference_check > 0) {
-    add(CaseKind::more_iterations).stepper.iterations *= options.reference_check;
-    add(CaseKind::second_method).stepper = second_method(scene, reference.stepper, options);
-  }
-  AccuracyCase& halved = add(CaseKind::halved_dt);
-  halved.stepper.dt_s /= 2;
-  halved.steps_per_frame *= 2;
+/// The case of nature: the way that gives its states, with the shortest steps.
+AccuracyCase nature_case(int index, const StudyScene& scene, const AccuracyOptions& options) {
+  const int steps = options.nature.most_steps;
+  return {index, CaseKind::nature, settings_of(Way::soft, scene.frame_s / steps, options.nature), steps};
 }
 
 bool solve_the_same(const StepperSettings& a, const StepperSettings& b) {
@@ -183,19 +150,6 @@ int AccuracyCase::sweeps_a_frame() const {
   return steps_per_frame * (estimate ? sweeps_of(*estimate) : sweeps());
 }
 
-StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options) {
-  StepperSettings reference = default_settings(stepping::StepperKind::sor, stepping::Law::ode);
-  reference.dt_s = scene.dt_s;
-  reference.iterations = options.reference_iterations;
-  reference.seed = options.seed;
-  return reference;
-}
-
-ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options) {
-  return {reference_settings(scene, options), options.reference_residual_m,
-          options.reference_most_iterations};
-}
-
 StepperSettings own_settings(const StepperSettings& setting, int iterations) {
   const stepping::StepperTraits& traits = traits_of(setting.kind);
   StepperSettings own = setting;
@@ -211,7 +165,7 @@ std::vector<AccuracyCase> make_cases(const std::vector<StudyScene>& scenes, cons
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const std::size_t first = cases.size();
     add_matrix(static_cast<int>(i), scenes[i], options, cases);
-    add_yardsticks(static_cast<int>(i), scenes[i], options, cases);
+    cases.push_back(nature_case(static_cast<int>(i), scenes[i], options));
     if (options.own_iterations == 0) continue;
     add_own_solutions(first, options, cases);
     add_own_floors(first, options, cases);

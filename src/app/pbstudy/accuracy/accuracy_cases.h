@@ -6,28 +6,20 @@
 #include <vector>
 
 #include "app/pbstudy/accuracy/accuracy_options.h"
-#include "app/pbstudy/accuracy/reference.h"
 #include "app/pbstudy/study/study_scene.h"
 
 namespace pbmpi::app {
 
 /// Why a case is there.
 enum class CaseKind {
-  setting,          ///< one setting of the matrix
-  reference,        ///< the reference itself: how far it was solved, and at what cost
-  floor,            ///< the reference with another solver seed: the effect of noise alone
-  more_iterations,  ///< each of its steps with many times as many iterations: has it converged?
-  second_method,    ///< the reference's frames by ODE, with contact points and a solver of its own
-  halved_dt,  ///< the reference with half the step: the effect of the step's length, which no solver mends
-  estimate,   ///< FEEC: what a frame of the setting shows before it has ended
-  own,        ///< the equations of one stepper's settings, solved by that stepper itself with many iterations
-  own_floor,  ///< own, from disturbed states with another solver seed: the engine's noise
+  setting,   ///< one setting of the matrix
+  nature,    ///< what all are compared with: how far it is known, and at what cost
+  estimate,  ///< FEEC: what a frame of the setting shows before it has ended
+  own,       ///< the equations of one stepper's settings, solved by that stepper itself with many iterations
+  own_floor  ///< own, from disturbed states with another solver seed: the engine's noise
 };
-inline constexpr std::array<std::string_view, 9> case_kind_names = {
-    "setting",   "reference", "floor", "more_iterations", "second_method",
-    "halved_dt", "estimate",  "own",   "own_floor"};
-/// Does the case judge the reference?
-constexpr bool is_yardstick(CaseKind kind) { return kind > CaseKind::setting && kind < CaseKind::estimate; }
+inline constexpr std::array<std::string_view, 5> case_kind_names = {"setting", "nature", "estimate", "own",
+                                                                    "own_floor"};
 constexpr bool is_own(CaseKind kind) { return kind == CaseKind::own || kind == CaseKind::own_floor; }
 
 struct AccuracyCase {
@@ -44,10 +36,6 @@ struct AccuracyCase {
   int sweeps() const { return sweeps_of(stepper); }  ///< in a step
   int sweeps_a_frame() const;                        ///< until the estimate, or the frame's end, is there
 };
-
-/// The reference's setting: sor with ODE's law in double precision, with the iterations that it begins with.
-stepping::StepperSettings reference_settings(const StudyScene& scene, const AccuracyOptions& options);
-ReferenceSolve reference_solve(const StudyScene& scene, const AccuracyOptions& options);
 
 /// The settings that solve the equations of `setting` with so many iterations a step, in double precision and
 /// without a tolerance. Substeps share the iterations; the soft law has as many relaxing sweeps. A stepper

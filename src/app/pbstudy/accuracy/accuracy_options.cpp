@@ -39,32 +39,22 @@ po::options_description options_description() {
        "time for which the scene at rest is watched under each setting: what falls, creeps or gains energy; "
        "0: none");
   po::options_description how =
-      how_to_measure({"of the scene's variation and of the reference's row order",
+      how_to_measure({"of the scene's variation and of the solver's row order",
                       "how often each frame is timed, the process being alone on its core", 5,
-                      "noise floor: the reference with this many other solver seeds", 4});
+                      "noise floor of each engine: its own solution with this many other solver seeds", 2});
   how.add_options()  //
-      ("reference-iterations", po::value<int>()->default_value(640)->value_name("N"),
-       "the reference is sor with --law ode in double precision, which solves the scene's own step; each "
-       "step is "
-       "tried "
-       "with these iterations first")  //
-      ("reference-residual", po::value<std::string>()->default_value("0.01mm")->value_name("LENGTH"),
-       "... and with four times as many again and again, until what is unsolved moves no point of a joint or "
-       "contact by more than this within the step, and turns no axis by more than as many radians a metre; "
-       "0: "
-       "not again")  //
-      ("reference-most-iterations", po::value<int>()->default_value(40960)->value_name("N"),
-       "... or so many are done")  //
-      ("reference-check", po::value<int>()->default_value(30)->value_name("N"),
-       "compare the reference with itself solved by N times as many iterations, and with ODE's solution; 0: "
-       "neither")  //
+      ("nature-steps", po::value<int>()->default_value(1536)->value_name("N"),
+       "nature is the limit of ever shorter steps, reached in two ways: by springs as stiff as a step bears, "
+       "and by ODE's rows with cones of friction, each begun with the scene's own step; so many steps a "
+       "frame "
+       "at most")  //
+      ("nature-error", po::value<std::string>()->default_value("0.1mm")->value_name("LENGTH"),
+       "... or until half the step moves nine tenths of the bodies by less; 0: always the most steps")  //
       ("own-iterations", po::value<int>()->default_value(640)->value_name("N"),
        "compare each setting also with its own equations, solved by its own stepper: each frame is tried "
        "with N "
        "iterations a step first, then with four times as many again and again until no body ends farther "
-       "than "
-       "--reference-residual from where it did before; and that with itself from disturbed states, as often "
-       "as "
+       "than 0.01 mm from where it did before; and that with itself from disturbed states, as often as "
        "--floor-seeds says; 0: neither")  //
       ("own-most-iterations", po::value<int>()->default_value(10240)->value_name("N"),
        "... or so many are done");
@@ -75,10 +65,7 @@ po::options_description options_description() {
 
 void require_possible(const AccuracyOptions& options) {
   require_at_least({options.max_sweeps}, 1, "--max-sweeps");
-  require_at_least({options.reference_iterations}, 2, "--reference-iterations");
-  require_at_least({options.reference_most_iterations}, options.reference_iterations,
-                   "--reference-most-iterations");
-  require_at_least({options.reference_check}, 0, "--reference-check");
+  require_at_least({options.nature.most_steps}, 2, "--nature-steps");
   require_at_least({options.own_iterations}, 0, "--own-iterations");
   require_at_least({options.own_most_iterations}, 4 * options.own_iterations, "--own-most-iterations");
   require_at_least(options.estimates, 0, "--estimates");
@@ -92,9 +79,10 @@ Manual accuracy_manual() {
   return {.name = "pbstudy accuracy",
           .about =
               "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
-              "its scene's replicas) and a setting. Its defect is the error after one frame from the "
-              "reference's own state, anew in every measured frame; its drift is the error along the "
-              "trajectory from the start. Its own defect is the same against its own equations, solved by "
+              "its scene's replicas) and a setting. Its defect is the error after one frame from a state of "
+              "nature, anew in every measured frame: the distance from where ever shorter steps lead, of the "
+              "bodies for which two independent ways agree on that. Its drift is the error along the "
+              "trajectory from the start. Its own defect is the distance from its own equations, solved by "
               "many iterations of its own stepper.",
           .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
           .options = options_description(),
@@ -115,11 +103,10 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.dts = setting_list(varied_dt, values);
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();
-  options.reference_iterations = values["reference-iterations"].as<int>();
-  const std::string residual = values["reference-residual"].as<std::string>();
-  options.reference_residual_m = residual == "0" ? 0 : parse_length_m(residual, "--reference-residual");
-  options.reference_most_iterations = values["reference-most-iterations"].as<int>();
-  options.reference_check = values["reference-check"].as<int>();
+  options.nature.most_steps = values["nature-steps"].as<int>();
+  const std::string error = values["nature-error"].as<std::string>();
+  options.nature.error_m = error == "0" ? 0 : parse_length_m(error, "--nature-error");
+  options.nature.seed = options.seed;
   options.own_iterations = values["own-iterations"].as<int>();
   options.own_most_iterations = values["own-most-iterations"].as<int>();
   options.rest_s = values["rest-seconds"].as<double>();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/manual/manual.h"
+#include "app/pbstudy/accuracy/nature.h"
 #include "app/pbstudy/study/setting_lists.h"
 #include "app/pbstudy/study/study_options.h"
 
@@ -12,16 +13,13 @@ namespace pbmpi::app {
 
 /// The settings that are crossed, and how each is measured.
 struct AccuracyOptions : StudyOptions {
-  std::vector<SettingList> settings;      ///< the stepper first; the last varies fastest
-  SettingList dts;                        ///< empty: the scene's and half of it
-  std::vector<int> estimates;             ///< numbers of iterations with which frames are estimated (FEEC)
-  int max_sweeps = 320;                   ///< iterations x substeps of a case, at most
-  int reference_iterations = 640;         ///< first tried for each of its steps
-  double reference_residual_m = 1e-5;     ///< required of each step; 0: no requirement
-  int reference_most_iterations = 40960;  ///< at most, for a step that does not get there
-  int reference_check = 30;               ///< factor on the iterations, for comparison; 0: no such case
-  int own_iterations = 640;               ///< per step, first tried for a stepper's own solution; 0: none
-  int own_most_iterations = 10240;        ///< per step, for a frame that does not settle
+  std::vector<SettingList> settings;  ///< the stepper first; the last varies fastest
+  SettingList dts;                    ///< empty: the scene's and half of it
+  std::vector<int> estimates;         ///< numbers of iterations with which frames are estimated (FEEC)
+  int max_sweeps = 320;               ///< iterations x substeps of a case, at most
+  NatureLimits nature;
+  int own_iterations = 640;         ///< per step, first tried for a stepper's own solution; 0: none
+  int own_most_iterations = 10240;  ///< per step, for a frame that does not settle
   double rest_s = 3;  ///< how long the scene at rest is watched under each setting; 0: not at all
 };
 

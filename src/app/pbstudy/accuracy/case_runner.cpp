@@ -13,14 +13,11 @@ namespace {
 using analysis::PoseErrors;
 using model::State;
 
-analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
-
 /// Raises `most` to `value`; a NaN counts as infinite.
 void raise(double& most, double value) { most = std::isnan(value) ? INFINITY : std::max(most, value); }
 
 /// Records what a frame did to joints, contacts, energy, momentum and segments.
-void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector<State>& reference,
-             CaseResult& result) {
+void observe(const CaseStepper& stepper, const Worlds& worlds, const States& nature, CaseResult& result) {
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     const auto world = static_cast<int>(i);
     const stepping::Observables seen = stepper.observables(world);
@@ -30,11 +27,11 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
     raise(result.max_joint_gap_m, seen.joint_gap_m);
     raise(result.max_penetration_m, seen.max_penetration_m);
     const model::MechanicsMeter meter(*worlds[i]);
-    const model::Mechanics wanted = meter.measure(reference[i]);
+    const model::Mechanics wanted = meter.measure(nature[i]);
     raise(result.energy_change_j, std::abs(seen.energy_j - wanted.energy_j));
     raise(result.momentum_change_ns, (meter.measure(state).linear_momentum - wanted.linear_momentum).norm());
     const auto segments = analysis::human_segments(*worlds[i]);
-    for (const double stretch : analysis::segment_stretch(*worlds[i], segments, view(state))) {
+    for (const double stretch : analysis::segment_stretch(*worlds[i], segments, view_of(state))) {
       raise(result.max_stretch, stretch);
     }
   }
@@ -43,25 +40,28 @@ void observe(const CaseStepper& stepper, const Worlds& worlds, const std::vector
 /// Times [measured frame][repeat]. Rounds go over all frames, so that the stepper already stands at the right
 /// step of the next frame. Errors come from the first round; the others give the same bits.
 std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const StudyScene& scene,
-                                                const Reference& reference, const Worlds& worlds, int repeats,
+                                                const Nature& nature, const Worlds& worlds, int repeats,
                                                 const FrameEnds* own, CaseResult& result) {
   CaseStepper stepper(worlds, one.stepper, one.steps_per_frame, one.estimate);
   std::vector<std::vector<double>> times_s(static_cast<std::size_t>(scene.frames));
-  PoseErrors errors, own_errors;
+  DefectOf defect(nature);
+  PoseErrors own_errors;
   for (int round = 0; round < repeats; ++round) {
     if (scene.warmup > 0) {  // the cost of a jump back to another step must not be timed
-      stepper.start_from(reference.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
+      stepper.start_from(nature.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
       stepper.advance_frame();
     }
     for (int i = 0; i < scene.frames; ++i) {
       const int first = scene.warmup + i;
       const auto frame = static_cast<std::size_t>(first);
-      stepper.start_from(reference.states[frame], first);
+      stepper.start_from(nature.states[frame], first);
       times_s[static_cast<std::size_t>(i)].push_back(stepper.advance_frame());
       if (round > 0) continue;
-      errors.append(errors_of(stepper, worlds, reference.states[frame + 1]));
+      defect.add(
+          worlds, [&](int world) -> const State& { return stepper.shown(world); },
+          static_cast<std::size_t>(i), scene.warmup);
       if (own != nullptr) own_errors.append(errors_of(stepper, worlds, (*own)[static_cast<std::size_t>(i)]));
-      observe(stepper, worlds, reference.states[frame + 1], result);
+      observe(stepper, worlds, nature.states[frame + 1], result);
     }
   }
   result.rows /= scene.frames;
@@ -70,38 +70,68 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
   } else {
     result.row_visits = result.row_visits * one.steps_per_frame / scene.frames;
   }
-  result.defect = analysis::summarize(errors);
+  defect.put_into(result);
   result.own_defect = analysis::summarize(own_errors);
   return times_s;
 }
 
 }  // namespace
 
-analysis::ErrorTable drift_of(const StudyScene& scene, const Reference& reference, const Worlds& worlds,
-                              const SolveFrame& solve) {
-  PoseErrors errors;
-  States states = reference.states.front();
-  for (int frame = 0; frame < scene.total_frames(); ++frame) {
-    states = solve(states, frame);
-    if (frame < scene.warmup) continue;
-    errors.append(errors_between(worlds, states, reference.states[static_cast<std::size_t>(frame) + 1]));
+void DefectOf::add(const Worlds& worlds, const std::function<const State&(int world)>& end, std::size_t i,
+                   int warmup) {
+  const States& wanted = nature_.states[static_cast<std::size_t>(warmup) + i + 1];
+  for (std::size_t world = 0; world < worlds.size(); ++world) {
+    const PoseErrors& uncertainty = nature_.frames[i].uncertainty[world];
+    PoseErrors errors =
+        analysis::compare(*worlds[world], view_of(end(static_cast<int>(world))), view_of(wanted[world]));
+    counts_.count(uncertainty, errors);
+    keep_judged(*worlds[world], uncertainty, errors);
+    errors_.append(errors);
   }
-  return analysis::summarize(errors);
 }
 
-CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
+void DefectOf::put_into(CaseResult& result) const {
+  result.defect = analysis::summarize(errors_);
+  result.determined = counts_.determined_shares();
+  result.within = counts_.within_shares();
+}
+
+CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Nature& nature,
                     const RestRunner& rest, int repeats, const FrameEnds* own) {
   CaseResult result;
-  const Worlds worlds = worlds_at_step(reference, scene, one.stepper.dt_s, one.stepper.seed);
-  const auto times_s = measure_defect(one, scene, reference, worlds, repeats, own, result);
+  const Worlds worlds = worlds_at_step(nature, scene, one.stepper.dt_s, one.stepper.seed);
+  const auto times_s = measure_defect(one, scene, nature, worlds, repeats, own, result);
   summarize_times(times_s, result);
   // An estimate's drift is that of the precise run that it is taken from.
   CaseStepper stepper(worlds, one.stepper, one.steps_per_frame);
-  result.drift = drift_of(scene, reference, worlds, [&](const States&, int) {
+  PoseErrors drift;
+  for (int frame = 0; frame < scene.total_frames(); ++frame) {
     stepper.advance_frame();
-    return stepper.states();
-  });
+    if (frame >= scene.warmup)
+      drift.append(errors_of(stepper, worlds, nature.states[static_cast<std::size_t>(frame) + 1]));
+  }
+  result.drift = analysis::summarize(drift);
   result.rest = one.kind == CaseKind::setting ? rest.run(one.stepper) : RestResult{NAN, NAN, NAN, NAN};
+  return result;
+}
+
+CaseResult account_of(const Nature& nature) {
+  CaseResult result = unobserved();
+  WithinCounts counts;
+  PoseErrors uncertainty;
+  std::vector<std::vector<double>> times_s;
+  for (const NatureFrame& frame : nature.frames) {
+    times_s.push_back({frame.cpu_s});
+    for (std::size_t world = 0; world < nature.worlds.size(); ++world) {
+      PoseErrors kept = frame.uncertainty[world];
+      counts.count(kept, kept);
+      keep_judged(*nature.worlds[world], frame.uncertainty[world], kept);
+      uncertainty.append(kept);
+    }
+  }
+  result.defect = analysis::summarize(uncertainty);
+  result.determined = counts.determined_shares();
+  summarize_times(times_s, result);
   return result;
 }
 
@@ -112,6 +142,7 @@ CaseResult unobserved() {
                                      &CaseResult::momentum_change_ns, &CaseResult::max_stretch})
     result.*number = NAN;
   result.rest = {NAN, NAN, NAN, NAN};
+  result.within.fill(NAN);
   return result;
 }
 

@@ -1,6 +1,7 @@
 /// Runs one case of "pbstudy accuracy" on this rank.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <type_traits>
@@ -8,6 +9,7 @@
 
 #include "analysis/error_table.h"
 #include "app/pbstudy/accuracy/accuracy_cases.h"
+#include "app/pbstudy/accuracy/nature.h"
 #include "app/pbstudy/accuracy/rest_runner.h"
 #include "app/pbstudy/study/case_stepper.h"
 
@@ -22,36 +24,47 @@ struct CaseResult {
   double frame_time_p10_s = 0, frame_time_p90_s = 0;  ///< over all timings: the spread
   double rows = 0;                                    ///< of the last step, mean over the measured frames
   double row_visits = 0;                              ///< rows x sweeps of a frame, until the result is shown
-  double max_joint_gap_m = 0, max_penetration_m = 0;  ///< after one frame from the reference's states
-  double energy_change_j = 0;     ///< largest distance from the reference's energy after one frame
-  double momentum_change_ns = 0;  ///< largest distance from the reference's linear momentum
+  double max_joint_gap_m = 0, max_penetration_m = 0;  ///< after one frame from nature's states
+  double energy_change_j = 0;     ///< largest distance from nature's energy after one frame
+  double momentum_change_ns = 0;  ///< largest distance from nature's linear momentum
   double max_stretch = 0;         ///< of a human segment after one frame
   RestResult rest;                ///< for a setting
-  double solve_residual = NAN;    ///< for a case solved like the reference (SolveAccount); otherwise NaN
-  double solve_iterations = NAN;
-  analysis::ErrorTable defect;
+  double solve_iterations = NAN;  ///< a step, for is_own(); otherwise NaN
+  /// Of the bodies of all measured frames, for each of asked_m.
+  std::array<double, asked_m.size()> determined{}, within{};
+  analysis::ErrorTable defect;  ///< of what nature determines (keep_judged()); for nature its uncertainty
   /// Against the own solution (for is_own(): see OwnSolutions::judge()); no entries without one.
   analysis::ErrorTable own_defect;
   analysis::ErrorTable drift;
 };
 static_assert(std::is_trivially_copyable_v<CaseResult>);
 
-/// States at the ends of the measured frames, each frame begun in the reference's state:
-/// [frames][num_worlds].
-using FrameEnds = std::vector<std::vector<model::State>>;
+/// States at the ends of the measured frames, each frame begun in nature's state: [frames][num_worlds].
+using FrameEnds = std::vector<States>;
 
-/// The states [num_worlds] of all worlds.
-using States = std::vector<model::State>;
-/// Computes frame `frame` from these states.
-using SolveFrame = std::function<States(const States& start, int frame)>;
+/// The errors of the measured frames from nature: those of the judged bodies, and how many are within what is
+/// asked.
+class DefectOf {
+ public:
+  explicit DefectOf(const Nature& nature) : nature_(nature) {}
 
-/// The errors of the measured frames of a run from the reference's first states.
-analysis::ErrorTable drift_of(const StudyScene& scene, const Reference& reference, const Worlds& worlds,
-                              const SolveFrame& solve);
+  /// Takes the ends [num_worlds] of measured frame `i`.
+  void add(const Worlds& worlds, const std::function<const model::State&(int world)>& end, std::size_t i,
+           int warmup);
+  void put_into(CaseResult& result) const;
+
+ private:
+  const Nature& nature_;
+  analysis::PoseErrors errors_;
+  WithinCounts counts_;
+};
 
 /// Runs a setting or an estimate. `own`: the ends of its own solution; null: no comparison with one.
-CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Reference& reference,
+CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Nature& nature,
                     const RestRunner& rest, int repeats, const FrameEnds* own = nullptr);
+
+/// The uncertainty of nature as a case's defect, and the time that it took.
+CaseResult account_of(const Nature& nature);
 
 /// A result whose observations are NaN; only what is measured later will be known.
 CaseResult unobserved();

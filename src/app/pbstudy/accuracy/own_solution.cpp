@@ -17,6 +17,9 @@ namespace {
 /// position in a world of ten metres.
 constexpr double disturbance = 1e-12;  // [m] and [m/s]
 
+/// A frame is solved once four times as many iterations move no body farther.
+constexpr double settled_m = 1e-5;
+
 /// Does one frame of some worlds of a case.
 class FrameSolver {
  public:
@@ -72,16 +75,16 @@ void disturb(double size, std::uint64_t key, State& state) {
   move(state.velocity);
 }
 
-OwnSolutions::OwnSolutions(const StudyScene& scene, const Reference& reference,
+OwnSolutions::OwnSolutions(const StudyScene& scene, const Nature& nature,
                            const std::vector<AccuracyCase>& cases, const AccuracyOptions& options)
-    : scene_(scene), reference_(reference), cases_(cases), options_(options) {}
+    : scene_(scene), nature_(nature), cases_(cases), options_(options) {}
 
 OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
   Solution found;
-  found.worlds = worlds_at_step(reference_, scene_, one.stepper.dt_s, one.stepper.seed);
+  found.worlds = worlds_at_step(nature_, scene_, one.stepper.dt_s, one.stepper.seed);
   for (int frame = scene_.warmup; frame < scene_.total_frames(); ++frame) {
     const double start_s = core::thread_cpu_s();
-    const States& start = reference_.states[static_cast<std::size_t>(frame)];
+    const States& start = nature_.states[static_cast<std::size_t>(frame)];
     const FrameSolver solver(one, found.worlds, frame);
     std::vector<int> open = all_of(found.worlds);
     std::vector<int> used(open.size(), options_.own_iterations);
@@ -98,7 +101,7 @@ OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
       solver.solve(open, start, static_cast<int>(wanted), ends);
       std::erase_if(open, [&](int world) {  // a world that is not finite will not settle either
         const auto place = static_cast<std::size_t>(world);
-        return !(farthest_m(fewer[place], ends[place]) > options_.reference_residual_m);
+        return !(farthest_m(fewer[place], ends[place]) > settled_m);
       });
     }
     found.ends.push_back(std::move(ends));
@@ -117,7 +120,7 @@ OwnSolutions::Solution OwnSolutions::solve_disturbed(const AccuracyCase& one, co
   for (std::size_t i = 0; i < own.ends.size(); ++i) {
     const double start_s = core::thread_cpu_s();
     const auto frame = static_cast<std::size_t>(scene_.warmup) + i;
-    States start = reference_.states[frame];
+    States start = nature_.states[frame];
     std::map<int, std::vector<int>> worlds_by_iterations;
     for (std::size_t world = 0; world < start.size(); ++world) {
       disturb(disturbance, core::mix_key(one.stepper.seed, world, frame), start[world]);
@@ -150,17 +153,20 @@ CaseResult OwnSolutions::judge(int index) {
   const Solution disturbed = one.kind == CaseKind::own_floor ? solve_disturbed(one, own) : Solution{};
   const Solution& judged = one.kind == CaseKind::own_floor ? disturbed : own;
   CaseResult result = unobserved();
-  analysis::PoseErrors errors, own_errors;
+  DefectOf defect(nature_);
+  analysis::PoseErrors own_errors;
   std::vector<std::vector<double>> times_s;
   double iterations = 0, num_solves = 0;
   for (std::size_t i = 0; i < judged.ends.size(); ++i) {
-    const auto frame = static_cast<std::size_t>(scene_.warmup) + i;
-    errors.append(errors_between(own.worlds, judged.ends[i], reference_.states[frame + 1]));
+    defect.add(
+        own.worlds,
+        [&](int world) -> const State& { return judged.ends[i][static_cast<std::size_t>(world)]; }, i,
+        scene_.warmup);
     own_errors.append(errors_between(own.worlds, judged.ends[i], judged.fewer[i]));
     times_s.push_back({judged.times_s[i]});
     for (const int count : judged.iterations[i]) iterations += (count - iterations) / ++num_solves;
   }
-  result.defect = analysis::summarize(errors);
+  defect.put_into(result);
   result.own_defect = analysis::summarize(own_errors);
   if (traits_of(one.stepper.kind).iterates) result.solve_iterations = iterations;
   summarize_times(times_s, result);

@@ -8,7 +8,7 @@
 
 #include "app/pbstudy/accuracy/accuracy_cases.h"
 #include "app/pbstudy/accuracy/case_runner.h"
-#include "app/pbstudy/study/case_stepper.h"
+#include "app/pbstudy/accuracy/nature.h"
 
 namespace pbmpi::app {
 
@@ -21,13 +21,13 @@ void disturb(double size, std::uint64_t key, model::State& state);
 class OwnSolutions {
  public:
   /// All arguments are borrowed.
-  OwnSolutions(const StudyScene& scene, const Reference& reference, const std::vector<AccuracyCase>& cases,
+  OwnSolutions(const StudyScene& scene, const Nature& nature, const std::vector<AccuracyCase>& cases,
                const AccuracyOptions& options);
 
   /// Ends of the frames of case `index`, which has CaseKind::own; null for AccuracyCase::no_own.
   const FrameEnds* ends(int index);
   /// Judges a case of CaseKind::own against itself with a quarter of its iterations, or of
-  /// CaseKind::own_floor against the undisturbed solution (`own_defect`), and both against the reference
+  /// CaseKind::own_floor against the undisturbed solution (`own_defect`), and both against nature
   /// (`defect`). `solve_iterations` are the iterations a step; all other observations are NaN.
   CaseResult judge(int index);
 
@@ -45,7 +45,7 @@ class OwnSolutions {
   const AccuracyCase& at(int index) const { return cases_[static_cast<std::size_t>(index)]; }
 
   const StudyScene& scene_;
-  const Reference& reference_;
+  const Nature& nature_;
   const std::vector<AccuracyCase>& cases_;
   const AccuracyOptions& options_;
   std::map<int, Solution> solutions_;

@@ -1,5 +1,8 @@
 #include "app/pbstudy/study/case_stepper.h"
 
+#include <cmath>
+#include <utility>
+
 #include "core/clock.h"
 #include "engines/stepper_factory.h"
 
@@ -8,25 +11,39 @@ namespace {
 
 using model::State;
 
-analysis::PoseView view(const State& state) { return {state.position, state.orientation, state.broken_in}; }
-
 /// `state_of(world)`: the state to compare.
 template <class StateOf>
 analysis::PoseErrors compare_all(const Worlds& worlds, const StateOf& state_of,
                                  const std::vector<State>& reference) {
   analysis::PoseErrors errors;
   for (std::size_t world = 0; world < worlds.size(); ++world)
-    errors.append(analysis::compare(*worlds[world], view(state_of(world)), view(reference[world])));
+    errors.append(analysis::compare(*worlds[world], view_of(state_of(world)), view_of(reference[world])));
   return errors;
 }
 
 }  // namespace
 
+analysis::PoseView view_of(const State& state) {
+  return {state.position, state.orientation, state.broken_in};
+}
+
 Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
                     const model::EffectChoices& effects) {
   const auto parsed = scenes::parse_scene(scene.source, dt_s, effects);
+  if (dt_s == scene.dt_s) {
+    Worlds worlds;
+    for (int world = 0; world < scene.num_worlds; ++world) worlds.push_back(parsed->build(world, seed));
+    return worlds;
+  }
+  const auto at_own_step = scenes::parse_scene(scene.source, scene.dt_s, effects);
   Worlds worlds;
-  for (int world = 0; world < scene.num_worlds; ++world) worlds.push_back(parsed->build(world, seed));
+  for (int world = 0; world < scene.num_worlds; ++world) {
+    auto model = std::make_shared<model::Model>(*parsed->build(world, seed));
+    model->events = at_own_step->build(world, seed)->events;
+    for (model::Event& event : model->events)
+      event.step = std::llround(static_cast<double>(event.step) * scene.dt_s / dt_s);
+    worlds.push_back(std::move(model));
+  }
   return worlds;
 }
 

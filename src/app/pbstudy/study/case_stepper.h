@@ -16,7 +16,8 @@ namespace pbmpi::app {
 
 /// The worlds of a scene at one step length.
 using Worlds = std::vector<std::shared_ptr<const model::Model>>;
-/// `effects` override those that the scene chooses.
+/// `effects` override those that the scene chooses. Events happen at the times at which they do with the
+/// scene's own step, whatever dt: otherwise a launch would come up to half a step earlier or later.
 Worlds build_worlds(const StudyScene& scene, double dt_s, std::uint64_t seed,
                     const model::EffectChoices& effects = {});
 
@@ -48,6 +49,9 @@ class CaseStepper {
   std::int64_t step_ = 0;
 };
 
+/// The poses of a state, borrowed.
+analysis::PoseView view_of(const model::State& state);
+
 /// Errors of all bodies and joints of all worlds, in `states` [num_worlds], against `reference` [num_worlds].
 analysis::PoseErrors errors_between(const Worlds& worlds, const std::vector<model::State>& states,
                                     const std::vector<model::State>& reference);
@@ -61,8 +65,7 @@ struct Reference {
   std::vector<std::vector<model::State>>
       states;  ///< [total_frames + 1][num_worlds] at the start of each frame
 };
-/// The reference's worlds with steps of dt. With another dt than the scene's, events come at other steps; the
-/// bodies are the same.
+/// The reference's worlds with steps of dt.
 Worlds worlds_at_step(const Reference& reference, const StudyScene& scene, double dt_s, std::uint64_t seed);
 Reference make_reference(const StudyScene& scene, const stepping::StepperSettings& settings);
 
