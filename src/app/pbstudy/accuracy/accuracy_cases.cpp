@@ -14,6 +14,9 @@ namespace {
 
 using stepping::StepperSettings;
 
+/// Steps that are studied by default: the scene's, half of it, and so on.
+constexpr std::size_t default_dts = 4;
+
 /// Steps of dt in a frame; they must fill it, except for rounding.
 int steps_in_frame(const StudyScene& scene, double dt_s) {
   const double steps = scene.frame_s / dt_s;
@@ -76,9 +79,8 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   base.dt_s = scene.dt_s;
   SettingList dts = options.dts;
   if (dts.values.empty()) {
-    StepperSettings half = base;
-    half.dt_s /= 2;
-    dts.values = {text_of(*dts.option, base), text_of(*dts.option, half)};
+    for (StepperSettings one = base; dts.values.size() < default_dts; one.dt_s /= 2)
+      dts.values.push_back(text_of(*dts.option, one));
   }
   cross_settings(base, {&dts, 1}, [&](const StepperSettings& with_dt) {
     const int steps = steps_in_frame(scene, with_dt.dt_s);
@@ -104,12 +106,12 @@ bool solve_the_same(const StepperSettings& a, const StepperSettings& b) {
          });
 }
 
-/// Adds the own solutions of the scene's settings (the cases from `first` on), one for all settings that
-/// share it.
+/// Adds the own solutions of the scene's settings (the cases from `first` on) at the first step of the study,
+/// one for all settings that share it.
 void add_own_solutions(std::size_t first, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
   const std::size_t end = cases.size();
   for (std::size_t i = first; i < end; ++i) {
-    if (cases[i].kind != CaseKind::setting) continue;
+    if (cases[i].kind != CaseKind::setting || cases[i].stepper.dt_s != cases[first].stepper.dt_s) continue;
     const StepperSettings wanted = own_settings(cases[i].stepper, options.own_iterations);
     std::size_t own = end;
     while (own < cases.size() && !solve_the_same(cases[own].stepper, wanted)) ++own;
@@ -121,18 +123,17 @@ void add_own_solutions(std::size_t first, const AccuracyOptions& options, std::v
   }
 }
 
-/// Adds the noise of each kind of stepper at the first step of the study, with its usual equations if they
-/// are studied.
+/// Adds the noise of each kind of stepper, with its usual equations if they are studied.
 void add_own_floors(std::size_t first, const AccuracyOptions& options, std::vector<AccuracyCase>& cases) {
   std::map<stepping::StepperKind, std::size_t> own_of;
   const std::size_t end = cases.size();
   for (std::size_t i = first; i < end; ++i) {
     if (cases[i].kind != CaseKind::own) continue;
     const StepperSettings& stepper = cases[i].stepper;
-    const std::size_t known = own_of.try_emplace(stepper.kind, i).first->second;
+    own_of.try_emplace(stepper.kind, i);
     const StepperSettings usual =
         own_settings(usual_settings(stepper, stepping::Law::soft), options.own_iterations);
-    if (cases[known].stepper.dt_s == stepper.dt_s && solve_the_same(stepper, usual)) own_of[stepper.kind] = i;
+    if (solve_the_same(stepper, usual)) own_of[stepper.kind] = i;
   }
   for (const auto& [kind, own] : own_of) {
     for (int i = 1; i <= options.floor_seeds; ++i) {

@@ -14,9 +14,9 @@ namespace pbmpi::app {
 /// The settings that are crossed, and how each is measured.
 struct AccuracyOptions : StudyOptions {
   std::vector<SettingList> settings;  ///< the stepper first; the last varies fastest
-  SettingList dts;                    ///< empty: the scene's and half of it
+  SettingList dts;                    ///< empty: the scene's, a half, a quarter and an eighth of it
   std::vector<int> estimates;         ///< numbers of iterations with which frames are estimated (FEEC)
-  int max_sweeps = 320;               ///< iterations x substeps of a case, at most
+  int max_sweeps = 80;                ///< iterations x substeps of a case, at most
   NatureLimits nature;
   int own_iterations = 640;         ///< per step, first tried for a stepper's own solution; 0: none
   int own_most_iterations = 10240;  ///< per step, for a frame that does not settle
