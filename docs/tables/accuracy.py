@@ -1,67 +1,93 @@
-"""Tables of what accuracy costs: defects from `pbstudy accuracy`, and joint gaps from `bench_worlds --substeps`."""
+"""Tables and the diagram of what accuracy costs: errors by nature from `pbstudy accuracy`, and joint gaps from `bench_worlds --substeps`."""
 import re
 
-from tables import programs
+import h5py
 
-# In the others the converged reference and its judges take half an hour.
-REFERENCE_SCENES = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Battle", "Fight")
-ONE_STEP = ("--dt", "0.01", "--rest-seconds", "0")
-ONLY_SETTINGS = ("--estimates", "0", "--reference-check", "0", *ONE_STEP)
-QUICK_TO_MEASURE = ("--repeats", "1", "--floor-seeds", "1")
+from tables import diagrams, programs
 
-
-def defect(case):
-    return [programs.millimetres(case[f"defect_body_position_{what}"]) for what in ("rms", "p99", "max")]
+ONLY_SETTINGS = ("--own-iterations", "0", "--rest-seconds", "0")
+DRAWN = ("CrashSk", "CrashWa", "Fight")
+# Step of the scene over the step, substeps x iterations.
+LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 7, 1),
+         ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
 
 
-def crashwa():
-    """Defects of some settings in CrashWa, and what they cost without a clock: visits of rows."""
-    wanted = (("quick", False, 1, 1), ("quick", False, 1, 20), ("quick", False, 1, 80), ("sor", True, 1, 1), ("sor", True, 1, 20),
-              ("sor", True, 1, 80), *(("sor", False, substeps, 1) for substeps in (1, 3, 7, 14, 28)))
+def nature_file(folder):
+    """The study of one setting: what nature is known to."""
+    return programs.study("accuracy", folder, programs.SCENES, "--stepper", "quick", "--iterations", "20", "--dt", "0.01", "--repeats", "1",
+                          "--estimates", "0", *ONLY_SETTINGS)
+
+
+def nature():
+    """How far nature is known in each scene."""
+    with programs.Folder() as folder, h5py.File(nature_file(folder)) as file:
+        frames = {name: column[:] for name, column in file["nature"].items()}
+    columns = {scene: frames["scene"] == scene.encode() for scene in programs.SCENES}
+
+    def of_frames(name, text):
+        return ["{} to {}".format(*(text(limit(frames[name][rows])) for limit in (min, max))) for rows in columns.values()]
+
+    def lengths(name):
+        return of_frames(name, programs.millimetres)
+
+    rows = [[f"steps of a frame, {way}", *of_frames(f"{way}_steps", str)] for way in ("soft", "ode")]
+    rows += [[f"nine tenths of the bodies move by less [mm] with half as many, {way}", *lengths(f"{way}_halved_p90")] for way in ("soft", "ode")]
+    rows.append(["nine tenths are nearer [mm] by the other way", *lengths("apart_p90")])
+    rows += [[f"determined for {length} [%]", *(f"{100 * frames['determined'][rows, place].mean():.0f}" for rows in columns.values())]
+             for place, length in enumerate(("1 mm", "1 cm", "10 cm"))]
+    return programs.table(["nature", *programs.SCENES], rows)
+
+
+def setting_name(line):
+    stepper, cut, substeps, iterations = line
+    return f"`{stepper}`, {10 / cut:g} ms, {substeps} x {iterations}"
+
+
+def setting_of(case):
+    return case["stepper"], round(0.01 / case["dt"]), int(case["substeps"]), int(case["iterations"])
+
+
+def front():
+    """Error by nature and time of some settings in all scenes; draws the diagram of docs/accuracy.md."""
     with programs.Folder() as folder:
-        cases, _ = programs.accuracy_cases(folder, ["CrashWa"], "--precision", "double", "--iterations", "1", "20", "80",
-                                           "--substeps", "1", "3", "7", "14", "28", "--max-sweeps", "80", *ONLY_SETTINGS,
-                                           *QUICK_TO_MEASURE)
-    found = {(case["stepper"], programs.has_ode_law(case), case["substeps"], case["iterations"]): case for case in cases
-             if case["kind"] == "setting" and case["dt"] == 0.01}
-    rows = [[programs.setting_name(found[key]), f"{found[key]['row_visits'] / 1000:,.0f}", *defect(found[key]),
-             programs.millimetres(found[key]["joint_gap"])] for key in wanted]
-    return programs.table(["substeps x iterations", "row visits a frame [1000]", "defect rms [mm]", "p99 [mm]", "most [mm]",
-                           "joint gap [mm]"], rows)
+        cases, scenes = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "quick", "sor", "--law", "soft", "--precision", "double",
+                                                "--iterations", "5", "20", "80", "--substeps", "1", "2", "4", "7", "14", "--estimates", "0",
+                                                "--rest-seconds", "0", "--repeats", "3")
+    found = {(case["scene"], setting_of(case)): case for case in cases if case["kind"] == "setting"}
+    unit = {scene: found[scene, ("quick", 1, 1, 20)]["frame_time_median"] for scene in programs.SCENES}
+    diagrams.fronts("docs/accuracy.svg", {scene: of_scene(scene, found, unit[scene], scenes[scene]["uncertainty_m"]) for scene in DRAWN})
+
+    def cell(scene, line):
+        case = found[scene, line]
+        return (f"{case['frame_time_median'] / unit[scene]:.2f}: {programs.millimetres(case['defect_body_position_rms'])}, "
+                f"{programs.millimetres(case['defect_body_position_median'])}")
+
+    return programs.table(["time over `quick`, 20 iterations: rms, median [mm]", *programs.SCENES],
+                          [[setting_name(line), *(cell(scene, line) for scene in programs.SCENES)] for line in LINES])
 
 
-def reference():
-    """How far the reference itself is to be trusted, in each scene."""
-    with programs.Folder() as folder:
-        cases, scenes = programs.accuracy_cases(folder, REFERENCE_SCENES, "--stepper", "sor", "--precision", "double", "--iterations",
-                                                "1", "--substeps", "1", "--max-sweeps", "1", "--estimates", "0", *ONE_STEP,
-                                                "--repeats", "1", "--floor-seeds", "2")
-    second = {case["scene"]: case["stepper"] for case in cases if case["kind"] == "second_method"}
-    taken = [[name, *(text(scenes[scene]["reference"]) for scene in REFERENCE_SCENES)] for name, text in (
-        ("left unsolved of a step [mm]", lambda account: programs.millimetres(account["residual_m"])),
-        ("iterations a step", lambda account: f"{account['iterations']:,.0f}"))]
-    lines = (("defect rms [mm] with another solver seed (the noise floor)", "noise_floor_m"),
-             ("with thirty times as many iterations", "more_iterations_m"), ("of ODE", "second_method_m"),
-             ("with half the step", "halved_dt_m"))
-    rows = [[name, *(programs.millimetres(scenes[scene][key]) + (f" (`{second[scene]}`)" if key == "second_method_m" else "")
-                     for scene in REFERENCE_SCENES)] for name, key in lines]
-    return programs.table(["the reference", *REFERENCE_SCENES], [*taken, *rows])
+def of_scene(scene, found, unit_s, uncertainty_m):
+    """What diagrams.fronts() draws of a scene."""
+    points = [{"stepper": setting[0], "cut": setting[1], "name": setting_name(setting), "time": case["frame_time_median"] / unit_s,
+               "error_mm": 1e3 * case["defect_body_position_rms"]} for (its_scene, setting), case in found.items() if its_scene == scene]
+    return {"points": points, "uncertainty_mm": 1e3 * uncertainty_m}
 
 
 def estimates():
-    """Estimated frames: the work that an estimate waits for, and its defect."""
+    """Estimated frames: the work that an estimate waits for, its error by nature, and that of the precise frame."""
     scenes = ("CrashSk", "CrashWa", "Fight")
     with programs.Folder() as folder:
-        cases, _ = programs.accuracy_cases(folder, scenes, "--precision", "double", "--iterations", "20", "--substeps", "1",
-                                           "--reference-check", "0", *ONE_STEP, *QUICK_TO_MEASURE)
-    found = {}
+        cases, _ = programs.accuracy_cases(folder, scenes, "--precision", "double", "--iterations", "20", "--substeps", "1", "14", "--dt", "0.01",
+                                           "--rest-seconds", "0", "--repeats", "1")
+    errors = {}
     for case in cases:
-        if case["kind"] == "estimate":
-            share = case["row_visits"] / frame_visits(case)
-            line = (programs.setting_name(case), f"{case['estimate_iterations']:.0f}")
-            found.setdefault(line, {})[case["scene"]] = (share, programs.millimetres(case["defect_body_position_rms"]))
+        if case["kind"] in ("estimate", "setting"):
+            share = case["row_visits"] / frame_visits(case) if case["kind"] == "estimate" else 1
+            line = (programs.setting_name(case), f"{case['estimate_iterations']:.0f}" if case["kind"] == "estimate" else "all")
+            errors.setdefault(line, {})[case["scene"]] = (share, programs.millimetres(case["defect_body_position_rms"]))
+    estimated = {name for name, count in errors if count != "all"}
     rows = []
-    for line, by_scene in found.items():
+    for line, by_scene in sorted((item for item in errors.items() if item[0][0] in estimated), key=lambda item: item[0][0]):
         shares = {f"{100 * share:.0f}" for share, _ in by_scene.values()}
         rows.append([*line, " to ".join(sorted({min(shares, key=float), max(shares, key=float)}, key=float)),
                      *(by_scene[scene][1] for scene in scenes)])
@@ -71,32 +97,6 @@ def estimates():
 def frame_visits(case):
     """Row visits of the whole frame of an estimate's setting."""
     return case["rows"] * (case["iterations"] + (case["law"] == "soft")) * case["substeps"] * case["steps_per_frame"]
-
-
-def least_defect():
-    """The least defect of each kind of setting within the time of the paper's estimate, quick with one iteration."""
-    with programs.Folder() as folder:
-        cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--iterations", "1", "2", "3", "5", "10", "20", "40", "80",
-                                           "--substeps", "1", "3", "7", "14", *ONLY_SETTINGS, "--repeats", "3", "--floor-seeds",
-                                           "1")
-    columns = [least_defects([case for case in cases if case["scene"] == scene and case["kind"] == "setting"])
-               for scene in programs.SCENES]
-    return programs.table(["defect rms [mm]", *programs.SCENES],
-                          [[name, *(column[name] for column in columns)] for name in columns[0]])
-
-
-def least_defects(cases):
-    quick = next(case for case in cases if case["stepper"] == "quick" and case["iterations"] == 1)
-    in_time = [case for case in cases if case["frame_time_median"] <= quick["frame_time_median"]]
-    found = {"`quick`, 1 x 1": programs.millimetres(quick["defect_body_position_rms"])}
-    for precision in ("double", "single"):
-        of_sor = [case for case in in_time if case["stepper"] == "sor" and case["precision"] == precision]
-        for name, fits in ((f"`sor` {precision}, 1 x N, law ode", lambda case: programs.has_ode_law(case) and case["substeps"] == 1),
-                           (f"`sor` {precision}, M x N, law ode", lambda case: programs.has_ode_law(case) and case["substeps"] > 1),
-                           (f"`sor` {precision}, M x 1", lambda case: not programs.has_ode_law(case))):
-            fitting = [case["defect_body_position_rms"] for case in of_sor if fits(case)]
-            found[name] = programs.millimetres(min(fitting)) if fitting else "-"
-    return found
 
 
 def substeps():
