@@ -6,17 +6,22 @@ from reports.document import Chart
 from reports.words import plural, stepper_in
 
 SHAPES = ("circle", "triangle", "rect", "rectRot", "star")  # of points, by the number of substeps; what is beyond shares the last
-LINES = {"more_iterations": ("reference with more iterations [mm]", []), "second_method": ("second method: ODE [mm]", [4, 2, 1, 2]),
-         "halved_dt": ("reference with half the step [mm]", [8, 4])}  # label and dashes, by the kind of case
+DASHES = {"ode": [7, 3], "coulomb": [2, 3]}  # of lines, by sor's law
 ASKED = {"colour": charts.RED, "dash": [6, 4]}  # how limits are drawn
+FAINT = "48"  # the opacity of points that are on no line, as the last digits of a colour
 
 
-class Sweeps:
-    """The shape of a point shows its number of substeps, the size its number of iterations."""
+class Marks:
+    """The shape of a point shows its number of substeps, the size its number of iterations, a dark edge a step below the longest."""
 
     def __init__(self, settings):
         self.substeps = sorted({one.row.substeps for one in settings})
         self.most_iterations = max((one.row.iterations for one in settings), default=1)
+        self.longest_s = max((one.row.dt for one in settings), default=0.0)
+        self.has_shorter = any(self.is_short(one) for one in settings)
+
+    def is_short(self, one):
+        return one.row.dt < 0.999 * self.longest_s
 
     def shape(self, substeps):
         return SHAPES[min(self.substeps.index(substeps), len(SHAPES) - 1)]
@@ -25,12 +30,21 @@ class Sweeps:
         """In pixels: 3 for one iteration, 6.5 for the most, linear in the logarithm in between."""
         return 3 + 3.5 * math.log2(max(1, iterations)) / max(1.0, math.log2(self.most_iterations))
 
+    def of(self, settings, colour):
+        """How Chart.js draws their points."""
+        return {"pointStyle": [self.shape(one.row.substeps) for one in settings],
+                "pointRadius": [self.radius(one.row.iterations) for one in settings],
+                "pointBorderColor": [charts.INK if self.is_short(one) else colour for one in settings],
+                "pointBorderWidth": [2.2 if self.is_short(one) else 1 for one in settings]}
+
     def key(self):
         entries = [{"label": plural(substeps, "substep"), "shape": shape} for substeps, shape in zip(self.substeps, SHAPES)]
         if len(self.substeps) > len(SHAPES):
             entries[-1]["label"] += " or more"
         for iterations in sorted({1, self.most_iterations}):
             entries.append({"label": plural(iterations, "iteration"), "shape": "circle", "radius": self.radius(iterations)})
+        if self.has_shorter:
+            entries.append({"label": f"dt below {self.longest_s:g} s", "shape": "circle", "stroke": charts.INK, "width": 2.2})
         return entries
 
 
@@ -40,53 +54,54 @@ def point(one, y_mm):
 
 
 def bands(scene, limit, measure):
-    """How far the reference may be off, the cases that bound it, and the limits asked for."""
-    def line(value, axis, label, colour, dash):
-        return charts.band(value, value, label, colour, axis=axis, dash=dash)
+    """How far nature may be off, and the limits asked for."""
+    def line(value, axis, label):
+        return charts.band(value, value, label, axis=axis, **ASKED)
 
-    found = [charts.band(0, 1e3 * scene.uncertainty_m(measure), "uncertainty of the reference [mm]"),
-             line(1e3 * scene.floor_m(measure), "y", "another solver seed: noise floor [mm]", charts.INK, [1, 3])]
-    found += [line(1e3 * scene.judges[kind].error_m(measure), "y", label, charts.INK, dash) for kind, (label, dash) in LINES.items()
-              if kind in scene.judges]
+    uncertainty_mm = 1e3 * scene.uncertainty_m(measure)
+    found = [] if math.isnan(uncertainty_mm) else [charts.band(0, uncertainty_mm, "uncertainty of nature [mm]")]
     if limit.budget_s:
-        found.append(line(1e3 * limit.budget_s, "x", "budget [ms]", **ASKED))
+        found.append(line(1e3 * limit.budget_s, "x", "budget [ms]"))
     if limit.tolerance_m and measure == limit.measure:
-        found.append(line(1e3 * limit.tolerance_m, "y", "tolerance [mm]", **ASKED))
+        found.append(line(1e3 * limit.tolerance_m, "y", "tolerance [mm]"))
     return found
 
 
-def setting_sets(settings, error_mm, sweeps):
-    """A set of points for each stepper and precision, of the settings that did not blow up."""
-    by_stepper = {}
-    for one in settings:
-        if one.finite():
-            by_stepper.setdefault(stepper_in(one.row.setting), []).append(one)
-    sets = []
-    for label, some in sorted(by_stepper.items()):
-        sets.append({"label": label, "data": [point(one, error_mm(one)) for one in some],
-                     "backgroundColor": charts.GREEN if label.endswith("single") else charts.ENGINES[some[0].stepper], "keyShape": "bar",
-                     "pointStyle": [sweeps.shape(one.row.substeps) for one in some],
-                     "pointRadius": [sweeps.radius(one.row.iterations) for one in some]})
+def colour_of(one):
+    return charts.GREEN if stepper_in(one.row.setting).endswith("single") else charts.ENGINES[one.stepper]
+
+
+def lines(scene, measure, marks):
+    """For each method the settings that no other of it beats, joined by a line; then all other settings, faint."""
+    by_method = {}
+    for one in scene.settings:
+        if not math.isnan(one.error_m(measure)):
+            by_method.setdefault(one.method(), []).append(one)
+    sets, faint = [], []
+    for label, settings in sorted(by_method.items()):
+        front, colour = scene.front(measure, settings), colour_of(settings[0])
+        faint += [one for one in settings if one.finite() and one not in front]
+        law = settings[0].options().get("law")
+        sets.append(charts.line(label, [point(one, 1e3 * one.error_m(measure)) for one in front], colour, showLine=True, borderWidth=1.8,
+                                borderDash=DASHES.get(law, []), **marks.of(front, colour)))
+    if faint:
+        sets.append({"label": "other settings", "data": [point(one, 1e3 * one.error_m(measure)) for one in faint], "keyShape": "circle",
+                     "backgroundColor": [colour_of(one) + FAINT for one in faint]} | marks.of(faint, "transparent") | {"pointBorderWidth": 0})
     return sets
 
 
 def diagram(scene, limit, measure, title, axis):
-    """All settings and estimates, the front, a ring round the chosen setting, and how far the reference may be off."""
-    def error_mm(one):
-        return 1e3 * one.error_m(measure)
-
-    sweeps, chosen = Sweeps(scene.settings), limit.chosen(scene)
-    front = [point(one, error_mm(one)) for one in scene.front(measure)]
-    sets = [{"label": "Pareto front", "data": front, "showLine": True, "borderColor": "#3d4650", "borderWidth": 1.5, "pointRadius": 0,
-             "unread": True, "pointHitRadius": 0}, *setting_sets(scene.settings, error_mm, sweeps)]
-    estimates = [point(one, error_mm(one)) for one in scene.estimates if one.finite()]
+    """A line a method, all other settings and the estimates, a ring round the chosen setting, and how far nature may be off."""
+    marks, chosen = Marks(scene.settings), limit.chosen(scene)
+    sets = lines(scene, measure, marks)
+    estimates = [point(one, 1e3 * one.error_m(measure)) for one in scene.estimates if one.finite()]
     if estimates:
         sets.append({"label": "estimates (FEEC)", "data": estimates, "borderColor": charts.SKY, "pointStyle": "crossRot", "pointRadius": 5,
                      "borderWidth": 2.2})
     if chosen:
-        where = point(chosen, error_mm(chosen))
+        where = point(chosen, 1e3 * chosen.error_m(measure))
         sets.append({"label": "chosen", "data": [where | {"label": f"chosen: {where['label']}"}], "borderColor": charts.RED,
                      "backgroundColor": "transparent", "borderWidth": 2.5, "pointRadius": 10, "keyShape": "ring", "unread": True})
     axes = {"x": charts.axis("time of the worst frame [ms]", "logarithmic"), "y": charts.axis(axis, "logarithmic")}
-    return Chart(title, "Each point is a setting; down and left is better.",
-                 charts.chart("scatter", sets, axes, bands=bands(scene, limit, measure), key=sweeps.key()))
+    text = "Each point is a setting, each line one way of stepping; down and left is better."
+    return Chart(title, text, charts.chart("scatter", sets, axes, bands=bands(scene, limit, measure), key=marks.key()))

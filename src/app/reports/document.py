@@ -53,13 +53,15 @@ class Chart:
 
 @dataclasses.dataclass
 class Section:
-    """A heading with its text, in paragraphs, its charts, its tables and its pictures: [(name, PNG)], which pages alone show."""
+    """A heading with its text, in paragraphs, its charts, its tables and its pictures: [(name, PNG)], which pages alone show. `last`: a
+    paragraph below them all."""
     title: str = ""
     text: str = ""
     charts: list = dataclasses.field(default_factory=list)
     tables: list = dataclasses.field(default_factory=list)
     shown_in: tuple = EVERYWHERE
     pictures: list = dataclasses.field(default_factory=list)
+    last: str = ""
 
 
 @dataclasses.dataclass
@@ -97,7 +99,8 @@ def text(report):
     for section in report.sections:
         if TEXT in section.shown_in:
             heading = "".join(line + "\n" for line in (section.title, section.text) if line)
-            parts.append(heading + "\n".join(table_text(table) for table in section.tables if TEXT in table.shown_in))
+            tables = [table_text(table) for table in section.tables if TEXT in table.shown_in]
+            parts.append(heading + "\n".join(tables + ([section.last + "\n"] if section.last else [])))
     return "\n".join(parts)
 
 
@@ -116,6 +119,7 @@ def markdown(report):
                     parts += [f"### {table.title}\n"] if table.title else []
                     parts += [table.text + "\n"] if table.text else []
                     parts.append(markdown_table(table.lines(), table.of_words, table.rule))
+            parts += [section.last + "\n"] if section.last else []
     return "\n".join(parts)
 
 

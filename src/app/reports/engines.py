@@ -10,17 +10,18 @@ from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Sectio
 from reports.files import require
 from reports.words import joined, number, plural
 
-COMMAND = Command("engines", "Shows engines side by side: of pbstudy accuracy each engine's front of error against time, by the common "
-                  "reference and by its own solution, and its noise; of pbstudy stability what each setting holds; and what each engine "
-                  "cannot express. Either file may be left out.", "[accuracy.h5] [stability.h5] [options]",
+COMMAND = Command("engines", "Shows engines side by side: of pbstudy accuracy each engine's front of error against time, by nature and by "
+                  "its own solution, and its noise; of pbstudy stability what each setting holds; and what each engine cannot express. "
+                  "Either file may be left out.", "[accuracy.h5] [stability.h5] [options]",
                   page="fronts of all engines in one diagram a scene, and the tables", markdown="print the tables in Markdown",
                   add_options=add_scene_option)
 
 MOST_NAMES = 4  # scenes listed in a cell
 NOT_COMPARABLE = (  # differences that no setting removes
     "Contacts: each engine finds them by its own collision detection, so that points, numbers and depths differ before a solver begins. "
-    "The common reference is sor with ODE's law and the contacts of sor: its error flatters sor, and is what an engine loses by its solver and "
-    "by its contacts together. The own solution has the engine's contacts.",
+    "Nature is the limit that two laws of sor, soft and ode, reach with short steps and the contacts of sor. The error against it is what an "
+    "engine loses by its step, its law, its solver and its contacts together; that other contacts count as an error favours sor. The own "
+    "solution has the engine's contacts.",
     "Laws: MuJoCo's contacts are soft by a law of its own, and its joints are coordinates of a tree that cannot open; the others have "
     "rows for joints, which open by what the solver leaves. A joint gap of nothing is no merit of MuJoCo's solver, as contacts that "
     "give are no fault of it. quick, direct and bullet bound friction by a pyramid of two directions, sor by default and mujoco by a "
@@ -35,7 +36,7 @@ NOT_COMPARABLE = (  # differences that no setting removes
 
 @dataclasses.dataclass
 class Yardstick:
-    """What an engine's settings are ranked by: errors against the common reference, or against the engine's own solution. They answer
+    """What an engine's settings are ranked by: errors against nature, or against the engine's own solution. They answer
     different questions and are never mixed. `error_of(case)`: rms of body positions after one frame [m]."""
     key: str
     name: str
@@ -47,13 +48,13 @@ class Yardstick:
         return math.inf if math.isnan(error) else error
 
 
-COMMON = Yardstick("common", "the common reference", lambda case: case.error_m("rms"))
+NATURE = Yardstick("nature", "nature", lambda case: case.error_m("rms"))
 OWN = Yardstick("own", "its own solution", lambda case: case.own_error_m("rms"))
 
 
 class Engine:
-    """An engine in a scene. Of its solution with its usual settings [m], rms: `law_m`, its distance from the common reference, by what its
-    model differs; `fewer_m`, from itself with fewer iterations; `floor_m`, from itself begun in disturbed states with another seed, its
+    """An engine in a scene. Of its solution with its usual settings [m], rms: `law_m`, its distance from nature, by what its model and its
+    step differ; `fewer_m`, from itself with fewer iterations; `floor_m`, from itself begun in disturbed states with another seed, its
     noise. NaN where the study has none."""
 
     def __init__(self, scene, name):
@@ -77,10 +78,10 @@ class Scene:
     """A scene of a study of accuracy."""
 
     def __init__(self, cases):
-        self.name, self.uncertainty_m = cases.name, cases.uncertainty_m("rms")  # of the common reference
+        self.name, self.uncertainty_m = cases.name, cases.uncertainty_m("rms")  # of nature
         self.engines = [Engine(cases, name) for name in dict.fromkeys(one.stepper for one in cases.settings)]
         self.has_own = any(one.has_own() for one in cases.settings)
-        self.yardsticks = [COMMON, OWN] if self.has_own else [COMMON]
+        self.yardsticks = [NATURE, OWN] if self.has_own else [NATURE]
         self.worlds, self.frames = (cases.settings[-1].row.worlds, cases.settings[-1].row.frames) if cases.settings else (1, 0)
 
 
@@ -130,7 +131,7 @@ def counts_text(counts):
 
 
 def front_table(scene, yardstick):
-    text = (f"Each engine's front; the reference is known to {1e3 * scene.uncertainty_m:.3g} mm." if yardstick is COMMON
+    text = (f"Each engine's front; nature is known to {millimetres(scene.uncertainty_m)} mm." if yardstick is NATURE
             else "Each engine's front; errors of two engines are not to be compared here.")
     rows = []
     for engine in scene.engines:
@@ -145,7 +146,7 @@ def front_table(scene, yardstick):
 
 OWN_COLUMNS = (Column("engine", lambda one: one.name), Column("settings", lambda one: str(len(one.settings))),
                Column("not finite", lambda one: str(one.not_finite)), Column("fell at rest", lambda one: str(one.felled)),
-               Column("from the common reference [mm]", lambda one: millimetres(one.law_m)),
+               Column("from nature [mm]", lambda one: millimetres(one.law_m)),
                Column("from itself with fewer iterations [mm]", lambda one: millimetres(one.fewer_m)),
                Column("noise [mm]", lambda one: millimetres(one.floor_m)))
 
@@ -204,8 +205,8 @@ def front_line(engine, yardstick):
 
 
 def front_chart(scene, yardstick):
-    """Errors below its dashed lines say nothing: the common reference's uncertainty, or each engine's own noise."""
-    floors = [(scene.uncertainty_m, "uncertainty of the reference [mm]", charts.INK)]
+    """Errors below its dashed lines say nothing: nature's uncertainty, or each engine's own noise."""
+    floors = [(scene.uncertainty_m, "uncertainty of nature [mm]", charts.INK)]
     if yardstick is OWN:
         floors = [(engine.floor_m, f"noise of {engine.name} [mm]", charts.ENGINES[engine.name]) for engine in scene.engines]
     lines = [charts.band(1e3 * at_m, 1e3 * at_m, label, colour, axis="y", dash=[3, 3]) for at_m, label, colour in floors if at_m > 0]
@@ -223,19 +224,19 @@ def scene_section(scene, tables):
 
 def setting_json(case):
     return {"setting": case.setting(), "frame_time_s": {"worst": case.time_s, "median": case.median_time_s},
-            "common_error_m": COMMON.error_m(case), "own_error_m": OWN.error_m(case), "joint_gap_m": case.joint_gap_m,
+            "nature_error_m": NATURE.error_m(case), "own_error_m": OWN.error_m(case), "joint_gap_m": case.joint_gap_m,
             "penetration_m": case.penetration_m}
 
 
 def engine_json(engine):
-    solution = {"from_common_reference_m": engine.law_m, "from_fewer_iterations_m": engine.fewer_m, "noise_m": engine.floor_m}
-    fronts = {f"{yardstick.key}_front": list(map(setting_json, engine.front(yardstick))) for yardstick in (COMMON, OWN)}
+    solution = {"from_nature_m": engine.law_m, "from_fewer_iterations_m": engine.fewer_m, "noise_m": engine.floor_m}
+    fronts = {f"{yardstick.key}_front": list(map(setting_json, engine.front(yardstick))) for yardstick in (NATURE, OWN)}
     return {"engine": engine.name, "settings": len(engine.settings), "not_finite": engine.not_finite, "felled": engine.felled,
             "own_solution": solution} | fronts
 
 
 def json_of(found):
-    scenes = [{"scene": scene.name, "worlds": scene.worlds, "frames": scene.frames, "reference_uncertainty_m": scene.uncertainty_m,
+    scenes = [{"scene": scene.name, "worlds": scene.worlds, "frames": scene.frames, "nature_uncertainty_m": scene.uncertainty_m,
                "engines": list(map(engine_json, scene.engines))} for scene in found.scenes]
     studies = [{"file": study.path, "command_line": study.attributes["command_line"], "versions": versions_of(study)}
                for study in found.studies]

@@ -40,7 +40,8 @@ def shown_section(section):
     charts = [{"title": chart.title, "text": chart.text, "config": chart.config} for chart in section.charts]
     tables = [shown_table(table) for table in section.tables if document.PAGE in table.shown_in]
     pictures = [{"name": name, "png": base64.b64encode(png).decode()} for name, png in section.pictures]
-    return {"title": section.title, "text": section.text, "charts": charts, "tables": tables} | ({"pictures": pictures} if pictures else {})
+    more = {"pictures": pictures, "last": section.last}
+    return {"title": section.title, "text": section.text, "charts": charts, "tables": tables} | {name: one for name, one in more.items() if one}
 
 
 def fill(template, fields):

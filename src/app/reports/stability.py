@@ -1,6 +1,8 @@
 """pbreport stability: which settings hold the hard cases; the file of pbstudy stability."""
+import collections
 import dataclasses
 import math
+import statistics
 
 from reports import map_page, page
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse
@@ -16,6 +18,7 @@ PASS, DEGRADED, BROKEN, NOT_APPLICABLE = VERDICTS = ("pass", "degraded", "broken
 # What is measured in every run, in the order of JSON (io/SCHEMA.md).
 METRICS = ("nonfinite", "energy_gain", "energy_change", "linear_momentum", "angular_momentum", "joint_gap", "joint_gap_rms", "penetration",
            "escaped", "drift", "sink", "creep", "speed")
+MOST_BROKEN = 0.05  # share of the hard cases that a setting may break and still holds: the default breaks 2 of 99
 DRIFT_BANDS = ("< 1 cm", "1-10 cm", "10-100 cm", "> 100 cm", "inf/NaN")
 
 
@@ -57,6 +60,43 @@ def map_of(study, names=()):
         scenes.setdefault(row.scene, Scene(row.scene, row)).cells[index] = row
         settings[row.setting] = None
     return Map(list(settings), in_order_of(names, list(scenes.values()), lambda scene: scene.name))
+
+
+@dataclasses.dataclass
+class Tally:
+    """How many hard cases a setting was tried on, and how many of them it broke."""
+    tried: int = 0
+    broken: int = 0
+
+    def holds(self):
+        return 0 < self.tried and self.broken <= MOST_BROKEN * self.tried
+
+    def remark(self):
+        """Why the setting is not to be chosen; empty if it holds."""
+        if self.holds():
+            return ""
+        return f"breaks {self.broken} of {self.tried} hard cases" if self.tried else "not tried on the hard cases"
+
+
+def step_key(options, dt_s):
+    """What two settings have in common that step alike: their options, as pbmpi takes them, and the step [s]."""
+    words = options.split()
+    return frozenset(one for one in zip(words[::2], words[1::2]) if one[0] != "--dt"), f"{dt_s:g}"
+
+
+def tallies(study):
+    """{step_key: Tally} of the settings of whole worlds. A setting without a step of its own takes each case's: that of most counts."""
+    rows = collections.defaultdict(list)
+    for row in study.rows():
+        if not row.cut:
+            rows[row.setting].append(row)
+    found = collections.defaultdict(Tally)
+    for some in rows.values():
+        tally = found[step_key(some[0].options, statistics.mode(row.dt for row in some))]
+        verdicts = count(some)
+        tally.tried += len(some) - verdicts[NOT_APPLICABLE]
+        tally.broken += verdicts[BROKEN]
+    return found
 
 
 def with_unit(value, unit):

@@ -8,8 +8,8 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import BIN, ProgramTest  # noqa: E402
 
 ACCURACY = ["--scene", "CrashSk", "2-Cars", "--stepper", "quick", "direct", "sor", "--iterations", "2", "20", "--substeps", "1", "4", "--dt",
-            "0.01", "--frames", "2", "--repeats", "1", "--estimates", "0", "--floor-seeds", "1", "--reference-iterations", "80",
-            "--reference-residual", "0", "--reference-check", "0", "--rest-seconds", "0.5"]
+            "0.01", "--frames", "2", "--repeats", "1", "--estimates", "0", "--floor-seeds", "1", "--nature-steps", "96",
+            "--rest-seconds", "0.5"]
 CASES = ["--scene", "hard/rest/column10", "hard/joints/chain20_1", "hard/contact/ramp_mu05_24", "--setting", "quick", "sor", "sor substeps=4"]
 
 
@@ -44,7 +44,7 @@ class Engines(ProgramTest):
             for engine in scene["engines"]:
                 cases = [row for row in of_scene if row["kind"] == "setting" and row["stepper"] == engine["engine"]]
                 self.assertEqual(engine["settings"], len(cases))
-                for name, column in (("common", "defect_body_position_rms"), ("own", "own_defect_body_position_rms")):
+                for name, column in (("nature", "defect_body_position_rms"), ("own", "own_defect_body_position_rms")):
                     points = [(point["frame_time_s"]["worst"], point[f"{name}_error_m"]) for point in engine[f"{name}_front"]]
                     self.assertEqual(points, self.front(cases, column), (scene["scene"], engine["engine"], name))
                     self.assertTrue(points)
@@ -52,7 +52,7 @@ class Engines(ProgramTest):
                 [own] = [row for row in of_scene if row["kind"] == "own" and row["own"] == floor["own"]]
                 solution = engine["own_solution"]
                 self.assertEqual(solution["noise_m"], float(floor["own_defect_body_position_rms"]))
-                self.assertEqual(solution["from_common_reference_m"], float(own["defect_body_position_rms"]))
+                self.assertEqual(solution["from_nature_m"], float(own["defect_body_position_rms"]))
                 self.assertEqual(solution["from_fewer_iterations_m"],
                                  None if engine["engine"] == "direct" else float(own["own_defect_body_position_rms"]))
         text = self.report("engines", "a.h5", "--scene", "2-Cars").stdout
@@ -63,7 +63,7 @@ class Engines(ProgramTest):
         self.study("accuracy", "a.h5", *ACCURACY, "--own-iterations", "0")
         [scene, _] = self.engines("a.h5")["scenes"]
         for engine in scene["engines"]:
-            self.assertTrue(engine["common_front"])
+            self.assertTrue(engine["nature_front"])
             self.assertEqual(engine["own_front"], [])
         self.assertNotIn("its own solution", self.report("engines", "a.h5", "--markdown").stdout)
 

@@ -29,7 +29,7 @@ def case_of(stepper, time_ms, error_mm, own_mm=math.nan, kind="setting", own=-1,
     for table, error in (("defect", error_mm), ("drift", math.nan), ("own_defect", own_mm)):
         for measured in errors.KINDS:
             here = measured == "body_position" and not math.isnan(error)
-            row |= {f"{table}_{measured}_{what}": 1e-3 * error if here else 0.0 for what in ("rms", "p99", "max")}
+            row |= {f"{table}_{measured}_{what}": 1e-3 * error if here else 0.0 for what in errors.NUMBERS}
             row[f"{table}_{measured}_bands"] = [int(here), 0, 0, 0, 0]
     return row | others
 
@@ -38,7 +38,7 @@ BLOWN_UP = {"defect_joint_position_bands": [0, 0, 0, 0, 1]}
 ACCURACY = [case_of("quick", 1, 10, 1), case_of("quick", 2, 5, 2), case_of("quick", 3, 4, 3, rest_fallen=2.0),
             case_of("sor", 1, 20, 9, **BLOWN_UP),
             case_of("quick", 50, 0.5, 0.25, "own", own=5), case_of("quick", 51, 0.7, 0.35, "own", own=6),
-            case_of("quick", 50, 0.5, 0.125, "own_floor", own=6), case_of("sor", 99, 3, kind="floor")]
+            case_of("quick", 50, 0.5, 0.125, "own_floor", own=6), case_of("sor", 99, 3, kind="nature")]
 VERDICTS = (("box", "rest", ("pass", "broken")), ("wall", "rest", ("pass", "pass")), ("arm", "joints", ("n/a", "pass")))
 STABILITY = [{"scene": scene, "group": group, "setting": setting, "stepper": setting, "verdict": verdict, "decided_by": "sink",
               "value": 0.1, "value_unit": "m", "broken_at": 2.0}
@@ -52,7 +52,7 @@ def studies(**kinds):
     """{kind: Study} of rows of /cases and, where it is of version 1.7, differences."""
     found = {}
     for kind, (rows, differences) in kinds.items():
-        tables = {"cases": table_of(rows)} | ({"differences": differences} if differences is not None else {})
+        tables = {"cases": table_of(rows), "nature": {}} | ({"differences": differences} if differences is not None else {})
         found[kind] = Study(f"{kind}.h5", ATTRIBUTES, {"build": "Release", "library_ode": "0.16", "seed": "1"}, tables)
     return found
 
@@ -68,14 +68,14 @@ class Report(unittest.TestCase):
     def test_each_yardstick_has_a_front_of_its_own_without_what_blew_up_or_fell(self):
         [scene] = json_of(self.found)["scenes"]
         quick, sor = scene["engines"]
-        self.assertEqual([one["setting"] for one in quick["common_front"]], ["quick, 1, dt 0.01 s", "quick, 2, dt 0.01 s"])
+        self.assertEqual([one["setting"] for one in quick["nature_front"]], ["quick, 1, dt 0.01 s", "quick, 2, dt 0.01 s"])
         self.assertEqual([one["setting"] for one in quick["own_front"]], ["quick, 1, dt 0.01 s"])
-        self.assertEqual((quick["settings"], quick["felled"], sor["not_finite"], sor["common_front"]), (3, 1, 1, []))
+        self.assertEqual((quick["settings"], quick["felled"], sor["not_finite"], sor["nature_front"]), (3, 1, 1, []))
 
     def test_the_own_solution_is_that_whose_noise_was_measured(self):
         quick, sor = json_of(self.found)["scenes"][0]["engines"]
         self.assertEqual({name: round(1e3 * value, 9) for name, value in quick["own_solution"].items()},
-                         {"from_common_reference_m": 0.7, "from_fewer_iterations_m": 0.35, "noise_m": 0.125})
+                         {"from_nature_m": 0.7, "from_fewer_iterations_m": 0.35, "noise_m": 0.125})
         self.assertEqual(set(sor["own_solution"].values()), {None})
 
     def test_without_own_solutions_there_is_one_yardstick(self):
@@ -104,10 +104,10 @@ class Report(unittest.TestCase):
         self.assertEqual(json_of(old)["unknown_engines"], ["bullet", "sor"])
 
     def test_a_chart_has_a_line_an_engine_and_marks_what_says_nothing(self):
-        common, own = (engines.front_chart(self.found.scenes[0], yardstick).config for yardstick in (engines.COMMON, engines.OWN))
-        self.assertEqual([one["label"] for one in common["data"]["datasets"]], ["quick"])
-        marks = [[mark["label"] for mark in chart["options"]["plugins"]["pbmpi"]["bands"]] for chart in (common, own)]
-        self.assertEqual(marks, [["uncertainty of the reference [mm]"], ["noise of quick [mm]"]])
+        nature, own = (engines.front_chart(self.found.scenes[0], yardstick).config for yardstick in (engines.NATURE, engines.OWN))
+        self.assertEqual([one["label"] for one in nature["data"]["datasets"]], ["quick"])
+        marks = [[mark["label"] for mark in chart["options"]["plugins"]["pbmpi"]["bands"]] for chart in (nature, own)]
+        self.assertEqual(marks, [["uncertainty of nature [mm]"], ["noise of quick [mm]"]])
 
     def test_versions_are_those_of_the_file(self):
         self.assertEqual(engines.versions_of(self.found.studies[0]), {"pbmpi": "0.1.0 (abc)", "build": "Release", "ode": "0.16"})

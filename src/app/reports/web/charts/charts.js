@@ -38,6 +38,7 @@ for (const section of pb.json('sections-data')) {
   for (const draw of places) draw();  // only now are they as wide as they stay
   for (const table of section.tables) pb.addTable(card, table);
   if (section.pictures) pb.addPictures(card, section.pictures);
+  if (section.last) card.append(pb.element('p', {}, section.last));
 }
 pb.showProvenance();
 document.body.dataset.ready = 'yes';
