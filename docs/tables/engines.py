@@ -5,8 +5,8 @@ import json
 from tables import programs, stability
 
 SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "14", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision", "double",
-            "--reference-check", "0", "--reference-most-iterations", "10240", "--own-most-iterations", "2560", "--floor-seeds", "1", "--repeats", "3",
-            "--frames", "2", "--rest-seconds", "1", "--progress", "never", "--quiet")
+            "--own-most-iterations", "2560", "--floor-seeds", "1", "--repeats", "3", "--frames", "2",
+            "--rest-seconds", "1", "--progress", "never", "--quiet")
 ALL = ("quick", "direct", "sor", "bullet", "mujoco")
 # Battle2: a step takes MuJoCo and `direct` seconds to tens of seconds.
 STUDIES = ((("CrashSk", "CrashWa", "Fight"), ALL, ()), (("100CrSk",), ALL, ("--replicas", "8")), (("Battle2",), ("quick", "sor", "bullet"), ()))
@@ -36,10 +36,6 @@ def hard_cases():
     return found["hard_cases"], found["differences"]
 
 
-def millimetres(metres):
-    return "-" if metres is None else programs.millimetres(metres)
-
-
 def engines_of_scenes():
     for scene in scenes()[0]:
         for engine in scene["engines"]:
@@ -49,21 +45,21 @@ def engines_of_scenes():
 def fronts():
     rows = []
     for scene, engine in engines_of_scenes():
-        for point in engine["common_front"]:
+        for point in engine["nature_front"]:
             rows.append([scene["scene"], f"`{engine['engine']}`", point["setting"].replace(", dt 0.01 s", ""),
-                         programs.digits(1e3 * point["frame_time_s"]["worst"]), *(millimetres(point[name]) for name in
-                                                                               ("common_error_m", "own_error_m", "joint_gap_m"))])
-    return programs.table(["scene", "engine", "setting", "worst frame [ms]", "error: common reference [mm]", "error: own solution [mm]", "joint gap [mm]"], rows)
+                         programs.digits(1e3 * point["frame_time_s"]["worst"]), *(programs.millimetres(point[name]) for name in
+                                                                               ("nature_error_m", "own_error_m", "joint_gap_m"))])
+    return programs.table(["scene", "engine", "setting", "worst frame [ms]", "error: nature [mm]", "error: own solution [mm]", "joint gap [mm]"], rows)
 
 
 def own():
     rows = []
     for scene, engine in engines_of_scenes():
         solution = engine["own_solution"]
-        rows.append([scene["scene"], f"`{engine['engine']}`", *(millimetres(solution[name]) for name in
-                                                               ("from_common_reference_m", "from_fewer_iterations_m", "noise_m")),
+        rows.append([scene["scene"], f"`{engine['engine']}`", *(programs.millimetres(solution[name]) for name in
+                                                               ("from_nature_m", "from_fewer_iterations_m", "noise_m")),
                      f"{engine['settings']}", f"{engine['not_finite']}, {engine['felled']}"])
-    return programs.table(["scene", "engine", "from the common reference [mm]", "from itself with a quarter of the iterations [mm]", "noise [mm]",
+    return programs.table(["scene", "engine", "from nature [mm]", "from itself with a quarter of the iterations [mm]", "noise [mm]",
                            "settings", "not finite, fell at rest"], rows)
 
 

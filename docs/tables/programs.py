@@ -2,6 +2,7 @@
 import csv
 import datetime
 import json
+import math
 import os
 import pathlib
 import re
@@ -65,13 +66,13 @@ def study(kind, folder, scenes, *options):
 
 
 def accuracy_cases(folder, scenes, *options):
-    """The cases of `pbstudy accuracy`, by the common reference alone, as rows of {column: text or number}, and {scene: its floors in m}."""
+    """The cases of `pbstudy accuracy`, by nature alone, as rows of {column: text or number}, and {scene: what `pbreport --json` says of it}."""
     path = study("accuracy", folder, scenes, "--own-iterations", "0", *options)
     table = folder / "accuracy.csv"
-    floors = json.loads(pbreport(path, "--json", "--csv", table))["scenes"]
+    found = json.loads(pbreport(path, "--json", "--csv", table))["scenes"]
     with open(table, encoding="utf-8", newline="") as file:
         cases = [{name: number_or_text(value) for name, value in row.items()} for row in csv.DictReader(file)]
-    return cases, {one["scene"]: one for one in floors}
+    return cases, {one["scene"]: one for one in found}
 
 
 def number_or_text(text):
@@ -96,7 +97,9 @@ def digits(value, count=2):
 
 
 def millimetres(metres, count=2):
-    """Without unit; below a micrometre only that."""
+    """Without unit; below a micrometre only that; "-" for None and what is not finite."""
+    if metres is None or not math.isfinite(metres):
+        return "-"
     return digits(1e3 * metres, count) if abs(metres) >= 1e-6 else "< 0.001"
 
 

@@ -116,6 +116,7 @@ def judge_study(programs):
         points = [[one["frame_time_s"]["worst"], one["error_m"]] for one in said["front"]]
         assert points == mine["front"], (points, mine["front"])
         assert said["uncertainty_m"] == mine["uncertainty"] > 0, (said["uncertainty_m"], mine["uncertainty"])
+        assert np.allclose(list(said["determined"].values()), mine["determined"], rtol=1e-12), (said["determined"], mine["determined"])
         chosen = said.get("chosen")
         assert (chosen and [chosen["frame_time_s"]["worst"], chosen["error_m"]]) == mine["chosen"], budget_s
 
