@@ -54,14 +54,15 @@ class Limit:
     def why_none(self, scene):
         """Why nothing is chosen."""
         keeping = [one for one in scene.settings if one.finite() and self.keeps(one)]
-        excuses = [words for words, found in (
+        untried = any(one.hard and not one.hard.tried for one in keeping)
+        faults = [words for words, found in (
             ("felling what stands at rest", any(one.fells() for one in keeping)),
-            ("breaking hard cases", any(one.hard and one.hard.tried and not one.hard.holds() for one in keeping)),
-            ("being untried on the hard cases", any(one.hard and not one.hard.tried for one in keeping))) if found]
+            ("breaking hard cases", any(one.hard and one.hard.tried and not one.hard.holds() for one in keeping))) if found]
         length = self.text() if self.text() in LENGTHS_M else "1 mm"
         if scene.determined()[length] == 0:
             return f"nature determines no body to {length}"
-        return "no setting of the study keeps it" + (f" without {' or '.join(excuses)}" if excuses else "")
+        return (f"no setting of the study{' that was tried on the hard cases' if untried else ''} keeps it"
+                + (f" without {' or '.join(faults)}" if faults else ""))
 
 
 def answers_asked(measure):

@@ -118,7 +118,8 @@ class Choice(unittest.TestCase):
     def test_a_limit_that_only_what_falls_would_keep_is_said_to_be_so(self):
         cases = scene(fells=[1])
         self.assertIn("without felling", accuracy.choice_text(cases, Limit(budget_s=1.5e-3)))
-        for one, words in ((BREAKS, "felling what stands at rest or breaking hard cases"), (UNTRIED, "being untried on the hard cases")):
+        for one, words in ((BREAKS, "of the study keeps it without felling what stands at rest or breaking hard cases"),
+                           (UNTRIED, "that was tried on the hard cases keeps it without felling what stands at rest")):
             cases.settings[1].hard = one
             self.assertIn(words, Limit(budget_s=1.5e-3).why_none(cases))
         self.assertTrue(accuracy.choice_text(cases, Limit(budget_s=1e-6)).endswith("no setting of the study keeps it"))
@@ -308,8 +309,8 @@ class Program(unittest.TestCase):
     def test_text_shows_the_front_and_what_was_left_out(self):
         text = self.printed("--tolerance", "6mm", "--write-config", self.config)
         for words in ("3 settings. 1 of them blew up (inf or NaN) and is left out.", "run: mpirun -n 1 pbmpi --scene Fake --stepper sor",
-                      "tolerance 6 mm: sor single, 2 x 3, dt 0.01 s (2.000 ms", "at most 768 steps a frame, until half as many change 0.1 mm",
-                      "Nature is determined for 25 % of bodies and frames at 1 mm, 75 % of bodies", "apart: 2 mm (rms of body positions)",
+                      "tolerance 6 mm: sor single, 2 x 3, dt 0.01 s (2.000 ms", "at most 768 steps a frame, until half as many change less than 0.1 mm",
+                      "Nature is determined for 25 % of bodies and frames at 1 mm, 75 % at 1 cm, 100 % at 10 cm", "apart: 2 mm (rms of body positions)",
                       "sor single, 2 x 3, dt 0.01 s (chosen)"):
             self.assertIn(words, text)
         self.assertTrue(text.endswith("(settings not held against the hard cases: --hard-cases stability.h5).\n"), text)
