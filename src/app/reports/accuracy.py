@@ -2,11 +2,12 @@
 import dataclasses
 import math
 
-from reports import diagrams, errors, page, stability
-from reports.answers import LENGTHS_M, Limit, answer_json, answer_text, answers_asked, millimetres
+from reports import errors, page, stability
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse, quantity
 from reports.document import PAGE, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study, require, write_file
+from reports.study import diagrams
+from reports.study.answers import LENGTHS_M, Limit, answer_json, answer_text, answers_asked, millimetres
 from reports.words import number, percent, plural, stepper_in
 
 
@@ -269,7 +270,8 @@ def scene_text(scene, limit):
     text = f"{plural(len(scene.settings), 'setting')}."
     if blown_up:
         text += f" {blown_up} of them blew up (inf or NaN) and {'is' if blown_up == 1 else 'are'} left out."
-    text += (" Error: of the bodies that nature determines to 1 mm, after one frame from nature's own state. Nature is determined for "
+    text += (" Error: of the bodies that nature determines to 1 mm, after one frame from nature's own state. Nature is the limit of a "
+             "short step, reached by sor's law soft and again by its law ode. It is determined for "
              f"{determined_text(scene)}. Its uncertainty, what half of its step changes or its two ways are apart: "
              f"{number(scene.uncertainty_m(limit.measure), '.4g', 1e3)} mm ({MEASURES[limit.measure].words}).")
     if scene.own:
@@ -366,8 +368,8 @@ def report_of(study, scenes, limit):
     head = f"study: accuracy; error after one frame from nature's state, ranked by the {MEASURES[limit.measure].words}\n"
     steps, error_m = (study.parameters.get(name) for name in ("nature_steps", "nature_error"))
     if steps and error_m:
-        head += (f"nature: the limit of a short step of sor's laws soft and ode, with at most {steps} steps a frame, until half as many change less than "
-                 f"{1e3 * float(error_m):g} mm; solver seed {study.parameters.get('seed', '?')}\n")
+        head += (f"nature: the limit of a short step of sor's laws soft and ode, with at most {steps} steps a frame, until half as many change less "
+                 f"than {1e3 * float(error_m):g} mm; solver seed {study.parameters.get('seed', '?')}\n")
     line, entries = page.origin_of_study(study)
     return Report("What accuracy costs in time", study.path, [scene_section(scene, limit) for scene in scenes],
                   {"scenes": [scene_json(scene, limit) for scene in scenes]}, head, line, entries)

@@ -36,8 +36,8 @@ NOT_COMPARABLE = (  # differences that no setting removes
 
 @dataclasses.dataclass
 class Yardstick:
-    """What an engine's settings are ranked by: errors against nature, or against the engine's own solution. They answer
-    different questions and are never mixed. `error_of(case)`: rms of body positions after one frame [m]."""
+    """What an engine's settings are ranked by: errors against nature, or against the engine's own solution. They answer different questions
+    and are never mixed. `error_of(case)`: rms of body positions after one frame [m]."""
     key: str
     name: str
     error_of: object

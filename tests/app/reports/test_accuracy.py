@@ -13,10 +13,11 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "src/app"))
-from reports import accuracy, answers, diagrams, errors, stability  # noqa: E402
+from reports import accuracy, errors, stability  # noqa: E402
 from reports.accuracy import Case, SceneCases  # noqa: E402
-from reports.answers import Limit  # noqa: E402
 from reports.files import BadInput, Row, Study  # noqa: E402
+from reports.study import answers, diagrams  # noqa: E402
+from reports.study.answers import Limit  # noqa: E402
 from made_up import put  # noqa: E402
 
 STEP = "--stepper sor --dt 0.01 --iterations 3 --substeps 2 --precision single"
@@ -309,8 +310,8 @@ class Program(unittest.TestCase):
     def test_text_shows_the_front_and_what_was_left_out(self):
         text = self.printed("--tolerance", "6mm", "--write-config", self.config)
         for words in ("3 settings. 1 of them blew up (inf or NaN) and is left out.", "run: mpirun -n 1 pbmpi --scene Fake --stepper sor",
-                      "tolerance 6 mm: sor single, 2 x 3, dt 0.01 s (2.000 ms", "at most 768 steps a frame, until half as many change less than 0.1 mm",
-                      "Nature is determined for 25 % of bodies and frames at 1 mm, 75 % at 1 cm, 100 % at 10 cm", "apart: 2 mm (rms of body positions)",
+                      "tolerance 6 mm: sor single, 2 x 3, dt 0.01 s (2.000 ms", "at most 768 steps a frame, until half as many change less than 0.1",
+                      "determined for 25 % of bodies and frames at 1 mm, 75 % at 1 cm, 100 % at 10 cm", "apart: 2 mm (rms of body positions)",
                       "sor single, 2 x 3, dt 0.01 s (chosen)"):
             self.assertIn(words, text)
         self.assertTrue(text.endswith("(settings not held against the hard cases: --hard-cases stability.h5).\n"), text)
@@ -323,7 +324,7 @@ class Program(unittest.TestCase):
         columns = {"scene": ["hard/a", "hard/b"], "setting": ["sor single"] * 2, "cut": [0, 0], "dt": [0.01] * 2, "options": [STEP] * 2,
                    "verdict": ["pass", "broken"]}
         with h5py.File(path, "w") as file:
-            file.attrs["filetype"], file.attrs["study"], file.attrs["version"] = np.bytes_("pbmpi-study"), np.bytes_("stability"), [1, 7]
+            file.attrs.update({"filetype": np.bytes_("pbmpi-study"), "study": np.bytes_("stability"), "version": [1, 7]})
             for name, values in columns.items():
                 put(file, f"cases/{name}", values)
         text = self.printed("--hard-cases", path, "--budget", "3ms")
