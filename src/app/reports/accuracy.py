@@ -223,7 +223,7 @@ def nature_table(scene):
         return [Column(f"{name} {part} mm", lambda row, column=f"{what}_{part}": number(getattr(row, column), ".3g", 1e3))
                 for part in ("median", "p90")]
 
-    text = "steps of the frame by sor's laws soft and ode, what half as many steps change of the bodies' positions, and how far the two are apart"
+    text = "steps of the frame by either way, what half as many change of the bodies' positions, and how far the two ways are apart"
     columns = [Column("frame", lambda row: str(row.frame)),
                Column("soft steps", lambda row: str(row.soft_steps)), *lengths("half as many:", "soft_halved"),
                Column("ode steps", lambda row: str(row.ode_steps)), *lengths("half as many:", "ode_halved"), *lengths("apart", "apart"),
@@ -270,9 +270,9 @@ def scene_text(scene, limit):
     text = f"{plural(len(scene.settings), 'setting')}."
     if blown_up:
         text += f" {blown_up} of them blew up (inf or NaN) and {'is' if blown_up == 1 else 'are'} left out."
-    text += (" Error: of the bodies that nature determines to 1 mm, after one frame from nature's own state. Nature is the limit of a "
-             "short step, reached by sor's law soft and again by its law ode. It is determined for "
-             f"{determined_text(scene)}. Its uncertainty, what half of its step changes or its two ways are apart: "
+    text += (" Error: of the bodies that nature determines to 1 mm, after one frame from nature's own state. Nature is the limit of ever "
+             "shorter steps, reached in two ways: by springs (soft), and by ODE's rows with cones of friction (ode). It is determined for "
+             f"{determined_text(scene)}. Its uncertainty, what half the step changes or the two ways are apart: "
              f"{number(scene.uncertainty_m(limit.measure), '.4g', 1e3)} mm ({MEASURES[limit.measure].words}).")
     if scene.own:
         text += " Own rms: the error against the same equations solved by the same stepper with many iterations."
@@ -368,8 +368,8 @@ def report_of(study, scenes, limit):
     head = f"study: accuracy; error after one frame from nature's state, ranked by the {MEASURES[limit.measure].words}\n"
     steps, error_m = (study.parameters.get(name) for name in ("nature_steps", "nature_error"))
     if steps and error_m:
-        head += (f"nature: the limit of a short step of sor's laws soft and ode, with at most {steps} steps a frame, until half as many change less "
-                 f"than {1e3 * float(error_m):g} mm; solver seed {study.parameters.get('seed', '?')}\n")
+        head += (f"nature: the limit of ever shorter steps, at most {steps} a frame, until half the step moves nine bodies in ten by less than "
+                 f"{1e3 * float(error_m):g} mm; solver seed {study.parameters.get('seed', '?')}\n")
     line, entries = page.origin_of_study(study)
     return Report("What accuracy costs in time", study.path, [scene_section(scene, limit) for scene in scenes],
                   {"scenes": [scene_json(scene, limit) for scene in scenes]}, head, line, entries)

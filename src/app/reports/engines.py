@@ -19,8 +19,8 @@ COMMAND = Command("engines", "Shows engines side by side: of pbstudy accuracy ea
 MOST_NAMES = 4  # scenes listed in a cell
 NOT_COMPARABLE = (  # differences that no setting removes
     "Contacts: each engine finds them by its own collision detection, so that points, numbers and depths differ before a solver begins. "
-    "Nature is the limit that two laws of sor, soft and ode, reach with short steps and the contacts of sor. The error against it is what an "
-    "engine loses by its step, its law, its solver and its contacts together; that other contacts count as an error favours sor. The own "
+    "Nature is the limit that two laws of sor, soft and ode, reach with ever shorter steps and the contacts of sor. The error against it is what "
+    "an engine loses by its step, its law, its solver and its contacts together; that other contacts count as an error favours sor. The own "
     "solution has the engine's contacts.",
     "Laws: MuJoCo's contacts are soft by a law of its own, and its joints are coordinates of a tree that cannot open; the others have "
     "rows for joints, which open by what the solver leaves. A joint gap of nothing is no merit of MuJoCo's solver, as contacts that "

@@ -310,7 +310,7 @@ class Program(unittest.TestCase):
     def test_text_shows_the_front_and_what_was_left_out(self):
         text = self.printed("--tolerance", "6mm", "--write-config", self.config)
         for words in ("3 settings. 1 of them blew up (inf or NaN) and is left out.", "run: mpirun -n 1 pbmpi --scene Fake --stepper sor",
-                      "tolerance 6 mm: sor single, 2 x 3, dt 0.01 s (2.000 ms", "at most 768 steps a frame, until half as many change less than 0.1",
+                      "tolerance 6 mm: sor single, 2 x 3, dt 0.01 s (2.000 ms", "at most 768 a frame, until half the step moves nine bodies in ten",
                       "determined for 25 % of bodies and frames at 1 mm, 75 % at 1 cm, 100 % at 10 cm", "apart: 2 mm (rms of body positions)",
                       "sor single, 2 x 3, dt 0.01 s (chosen)"):
             self.assertIn(words, text)
