@@ -337,6 +337,7 @@ class Program(unittest.TestCase):
                             (["a.h5", "--budget", "1ms", "--tolerance", "1cm"], "exclude"),
                             (["a.h5", "--measure", "mean"], "rms, median, p90, p99, max, joint"),
                             (["a.h5", "--budget", "3.33"], "unit"), ([self.path, "--html", self.path], "name another file"),
+                            ([self.path, "--hard-cases", "s.h5", "--html", "s.h5"], "name another file"),
                             ([self.path, "--budget", "1us", "--write-config", self.config], "no setting of the study keeps"),
                             ([self.path, "--scene", "Fight"], "the study has Fake")):
             self.assertIn(said, self.refusal(*words), words)
