@@ -131,7 +131,8 @@ void keep_judged(const model::Model& model, const PoseErrors& uncertainty, PoseE
   PoseErrors kept;
   kept.broken_joints = errors.broken_joints;
   for (int body = 0; body < model.num_bodies(); ++body) {
-    if (!is_judged(body)) continue;
+    const double error_m = errors.body_position_m[static_cast<std::size_t>(body)];
+    if (!is_judged(body) && std::isfinite(error_m)) continue;
     kept.body_position_m.push_back(errors.body_position_m[static_cast<std::size_t>(body)]);
     kept.body_orientation_rad.push_back(errors.body_orientation_rad[static_cast<std::size_t>(body)]);
   }

@@ -68,8 +68,8 @@ inline constexpr double judged_m = known_share * asked_m[1];
 /// The distances [m] of all bodies of all worlds; infinite where one is not known.
 std::vector<double> distances_m(const States& a, const States& b);
 
-/// Leaves the errors of bodies that nature determines to judged_m, and of joints between such bodies.
-/// `uncertainty` is that of the world.
+/// Leaves the errors of bodies that nature determines to judged_m, and of joints between such bodies; also
+/// those that are not finite. `uncertainty` is that of the world.
 void keep_judged(const model::Model& model, const analysis::PoseErrors& uncertainty,
                  analysis::PoseErrors& errors);
 

@@ -25,15 +25,11 @@ def summarize(values, unit, broken=0):
         places = np.where(share == ORIENTATION_EDGES[-1], 2, np.searchsorted(ORIENTATION_EDGES, share, "right"))
     bands = [*np.bincount(places, minlength=4).tolist(), len(values) - len(finite)]
     if len(finite) == 0:
-        return Errors(0.0, 0.0, 0.0, 0.0, 0.0, bands, broken)
+        return Errors(0.0, 0.0, 0.0, bands, broken)
     ordered = np.sort(finite)
-
-    def quantile(share):
-        place = share * (len(ordered) - 1)
-        low, high = ordered[int(place)], ordered[min(int(place) + 1, len(ordered) - 1)]
-        return float(low + (place - int(place)) * (high - low))
-
-    return Errors(math.sqrt(total(finite * finite) / len(finite)), *map(quantile, (0.5, 0.9, 0.99)), float(ordered[-1]), bands, broken)
+    place = 0.99 * (len(ordered) - 1)
+    low, high = ordered[int(place)], ordered[min(int(place) + 1, len(ordered) - 1)]
+    return Errors(math.sqrt(total(finite * finite) / len(finite)), float(low + (place - int(place)) * (high - low)), float(ordered[-1]), bands, broken)
 
 
 def summarize_held(values, held, unit):
