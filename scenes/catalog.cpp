@@ -43,7 +43,13 @@ SceneSource read_file(const std::string& path) {
   return source;
 }
 
-bool is_hard_case(std::string_view name) { return name.starts_with("hard/"); }
+/// The folder of a group whose names are many, and that are suggested only for names of that group; empty:
+/// none.
+std::string_view folder_of(std::string_view name) {
+  for (const std::string_view folder : {"hard/", "exact/"})
+    if (name.starts_with(folder)) return folder;
+  return "";
+}
 
 }  // namespace
 
@@ -64,10 +70,11 @@ SceneSource find_scene(const std::string& name_or_path) {
     if (scene.name == name_or_path) {
       return {name_or_path, name_or_path + ".toml", std::string(scene.text)};
     }
-    if ((scene.group == SceneGroup::hard) == is_hard_case(name_or_path)) names.emplace_back(scene.name);
+    if (folder_of(scene.name) == folder_of(name_or_path)) names.emplace_back(scene.name);
   }
-  // Naming all hard cases would make the list too long.
-  const bool none_is_near = is_hard_case(name_or_path) && core::nearest_name(name_or_path, names).empty();
+  // Naming all of a folder would make the list too long.
+  const bool none_is_near =
+      !folder_of(name_or_path).empty() && core::nearest_name(name_or_path, names).empty();
   throw core::InputError("unknown scene " + core::in_quotes(name_or_path) +
                          (none_is_near ? "" : core::suggestion(name_or_path, names)) +
                          " (--list-scenes shows all; a scene file of your own ends in .toml, .xml or .urdf)");

@@ -15,7 +15,7 @@ struct EmbeddedScene {
 };
 
 /// The scenes by group, in the order of list_scenes(). The source is generated at build time from
-/// scenes/*.toml, scenes/effects/*.toml and scenes/hard/*/*.toml.
+/// scenes/*.toml, scenes/effects/*.toml, scenes/exact/*.toml and scenes/hard/*/*.toml.
 std::span<const EmbeddedScene> embedded_scenes();
 
 }  // namespace pbmpi::scenes

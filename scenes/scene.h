@@ -54,6 +54,7 @@ struct SceneInfo {
 enum class SceneGroup {
   paper,    ///< the nine scenes of PhysicsBench, in the order of the paper's Table 1
   effects,  ///< scenes for the effects that none of the nine needs; in alphabetical order
+  exact,    ///< motions known in closed form, "exact/NAME", in alphabetical order
   hard,     ///< hard cases, "hard/GROUP/NAME", in alphabetical order
 };
 

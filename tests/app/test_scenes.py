@@ -72,9 +72,11 @@ class Scenes(ProgramTest):
     def test_list_scenes_has_a_line_for_each(self):
         result = self.pbmpi(1, "--list-scenes")
         listed, hard_cases = result.stdout.split("Hard cases", 1)
+        listed, exact = listed.split("Motions known in closed form (docs/accuracy.md):\n", 1)
         suite, effects = listed.split("Scenes of single effects (docs/effects.md):\n", 1)
         self.assertEqual([line.split()[0] for line in suite.splitlines()], list(SCENES))
         self.assertEqual([line.split()[0] for line in effects.splitlines()], list(EFFECT_SCENES))
+        self.assertIn("exact/pendulum", [line.split()[0] for line in exact.splitlines()])
         self.assertIn("hard/rest/", hard_cases)
         self.assertIn(" column20 ", hard_cases)
 

@@ -28,10 +28,11 @@ std::vector<std::string> names_in(SceneGroup group) {
   return names;
 }
 
-/// The nine scenes, and those of effects.
+/// The nine scenes, those of effects, and exact motions.
 std::vector<SceneInfo> no_hard_cases() {
   std::vector<SceneInfo> scenes = list_scenes(SceneGroup::paper);
-  for (const SceneInfo& scene : list_scenes(SceneGroup::effects)) scenes.push_back(scene);
+  for (const SceneGroup group : {SceneGroup::effects, SceneGroup::exact})
+    for (const SceneInfo& scene : list_scenes(group)) scenes.push_back(scene);
   return scenes;
 }
 
@@ -71,7 +72,8 @@ TEST(Catalog, lists_all_scenes_when_no_name_is_near) {
 
 TEST(Catalog, holds_the_scene_files_word_for_word) {
   const std::string folder = std::string(PBMPI_TEST_SCENES) + "/../../scenes/";
-  for (const auto& [group, below] : {std::pair(SceneGroup::paper, ""), {SceneGroup::effects, "effects/"}}) {
+  for (const auto& [group, below] :
+       {std::pair(SceneGroup::paper, ""), {SceneGroup::effects, "effects/"}, {SceneGroup::exact, ""}}) {
     for (const std::string& name : names_in(group)) {
       const std::string path = folder + below + name + ".toml";
       EXPECT_EQ(find_scene(name).text, find_scene(path).text) << name;

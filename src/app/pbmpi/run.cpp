@@ -70,7 +70,9 @@ std::string titled_list(scenes::SceneGroup group, const std::string& indent) {
 
 std::string scene_list() {
   return titled_list(scenes::SceneGroup::paper, "") + "Scenes of single effects (docs/effects.md):\n" +
-         titled_list(scenes::SceneGroup::effects, "  ") + hard_case_list();
+         titled_list(scenes::SceneGroup::effects, "  ") +
+         "Motions known in closed form (docs/accuracy.md):\n" + titled_list(scenes::SceneGroup::exact, "  ") +
+         hard_case_list();
 }
 
 RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,
