@@ -12,7 +12,7 @@ import pathlib
 import re
 import sys
 
-from tables import accuracy, effects, engines, engines_speed, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
+from tables import accuracy, effects, engines, engines_speed, exact, guards, paper, prediction, programs, scaling, scenes, siconos, speed, stability
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -34,6 +34,7 @@ ENTRIES = {
                        ["pbstudy accuracy --scene CrashSk CrashWa Fight --precision double --iterations 20 --substeps 1 14 --dt 0.01"]),
     "substeps": Entry("docs/accuracy.md", accuracy.substeps, False, ["bench_worlds --substeps 100CrSk 0 8",
                                                                      "bench_worlds --substeps 100CrSk 0 100"]),
+    "exact": Entry("docs/accuracy.md", exact.table, False, ["docs/tables/exact.py"]),
     "hard_map": Entry("docs/stability.md", stability.hard_map, False, ["pbstudy stability",
                                                                        "pbreport stability.h5 --markdown"]),
     "joint_springs": Entry("docs/stability.md", stability.joint_springs, False,

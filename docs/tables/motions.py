@@ -186,7 +186,7 @@ def two_links(t, start):
     root = np.linalg.inv(np.linalg.cholesky(masses))
     squares, modes = np.linalg.eigh(root @ np.diag([3.0, 1.0]) @ root.T * m * start.g * c)
     shapes = root.T @ modes
-    q0 = [np.arctan2(-upper.position[0], -upper.position[2]), np.arctan2(2 * upper.position[0] - lower.position[0], 2 * upper.position[2] - lower.position[2])]
+    q0 = [np.arctan2(-rod[0], -rod[2]) for rod in (upper.position, lower.position - 2 * upper.position)]
     q = np.cos(np.outer(t, squares**0.5)) * np.linalg.solve(shapes, q0) @ shapes.T
     middle = [c * np.stack([-np.sin(one), 0 * one, -np.cos(one)], axis=-1) for one in q.T]
     return {"upper": middle[0], "lower": 2 * middle[0] + middle[1]}
