@@ -60,11 +60,12 @@ std::string hard_case_list() {
 
 /// One line per scene: name and title.
 std::string titled_list(scenes::SceneGroup group, const std::string& indent) {
+  const std::vector<scenes::SceneInfo> list = scenes::list_scenes(group);
+  std::size_t width = 12;
+  for (const scenes::SceneInfo& scene : list) width = std::max(width, scene.name.size() + 1);
   std::string text;
-  for (const scenes::SceneInfo& scene : scenes::list_scenes(group)) {
-    text += indent + scene.name + std::string(scene.name.size() < 12 ? 12 - scene.name.size() : 1, ' ') +
-            scene.title + "\n";
-  }
+  for (const scenes::SceneInfo& scene : list)
+    text += indent + scene.name + std::string(width - scene.name.size(), ' ') + scene.title + "\n";
   return text;
 }
 
