@@ -145,6 +145,7 @@ def suspended(start, path, t):
 # Scene: what is zero at all times t [s], in its own unit: law(Start, {point: (positions, velocities, accelerations)}, t), the largest
 # remainder, and the number of instants at which the law changes, next to which differences mean nothing.
 Law = collections.namedtuple("Law", "rest largest kinks", defaults=(1e-6, 0))
+IMPACTS = ("bounce", "cradle", "impact")
 FREE = Law(lambda start, path, t: np.max([size(a) for _, _, a in path.values()], axis=0))
 LAWS = {
     "flight": Law(forces(lambda start, body, x, v, t: start.gravity)),
@@ -208,6 +209,17 @@ class Exact(harness.ProgramTest):
                 position, velocity = body.position, body.velocity
             np.testing.assert_allclose(path[0], position, atol=1e-10)
             np.testing.assert_allclose((path[1] - path[0]) / 1e-6, velocity, atol=1e-4)
+
+    def test_no_motion_jumps_and_only_an_impact_changes_a_speed_at_once(self):
+        d = 1e-4
+        for scene, law in LAWS.items():
+            if law.kinks:
+                start, end = self.start(scene)
+                for point, path in motions.MOTIONS[scene](np.arange(0, end, d), start).items():
+                    with self.subTest(scene=scene, point=point):
+                        self.assertLess(size(np.diff(path, axis=0)).max(), 6 * d, "nothing is faster than 6 m/s")
+                        if scene not in IMPACTS:
+                            self.assertLess(size(np.diff(path, 2, axis=0)).max(), 20 * d * d, "nor gains more than 20 m/s2")
 
     def test_impacts_leave_the_momentum_and_speeds_of_the_textbook(self):
         t = np.linspace(0, 1.0, 100_001)
