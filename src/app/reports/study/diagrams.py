@@ -8,7 +8,7 @@ from reports.words import plural, stepper_in
 SHAPES = ("circle", "triangle", "rect", "rectRot", "star")  # of points, by the number of substeps; what is beyond shares the last
 DASHES = {"ode": [7, 3], "coulomb": [2, 3]}  # of lines, by sor's law
 ASKED = {"colour": charts.RED, "dash": [6, 4]}  # how limits are drawn
-FAINT = "48"  # the opacity of points that are on no line, as the last digits of a colour
+SMALL = 1.6  # radius [pixels] of points that are on no line
 
 
 class Marks:
@@ -72,21 +72,21 @@ def colour_of(one):
 
 
 def lines(scene, measure, marks):
-    """For each method the settings that no other of it beats, joined by a line; then all other settings, faint."""
+    """For each method the settings that no other of it beats, joined by a line; then all other settings, small."""
     by_method = {}
     for one in scene.settings:
         if not math.isnan(one.error_m(measure)):
             by_method.setdefault(one.method(), []).append(one)
-    sets, faint = [], []
+    sets, small = [], []
     for label, settings in sorted(by_method.items()):
         front, colour = scene.front(measure, settings), colour_of(settings[0])
-        faint += [one for one in settings if one.finite() and one not in front]
+        small += [one for one in settings if one.finite() and one not in front]
         law = settings[0].options().get("law")
         sets.append(charts.line(label, [point(one, 1e3 * one.error_m(measure)) for one in front], colour, showLine=True, borderWidth=1.8,
                                 borderDash=DASHES.get(law, []), **marks.of(front, colour)))
-    if faint:
-        sets.append({"label": "other settings", "data": [point(one, 1e3 * one.error_m(measure)) for one in faint], "keyShape": "circle",
-                     "backgroundColor": [colour_of(one) + FAINT for one in faint]} | marks.of(faint, "transparent") | {"pointBorderWidth": 0})
+    if small:
+        sets.append({"label": "other settings", "data": [point(one, 1e3 * one.error_m(measure)) for one in small], "keyShape": "circle",
+                     "backgroundColor": list(map(colour_of, small)), "pointRadius": SMALL, "pointBorderWidth": 0})
     return sets
 
 
