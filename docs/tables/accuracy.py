@@ -6,6 +6,7 @@ import h5py
 from tables import diagrams, programs
 
 ONLY_SETTINGS = ("--own-iterations", "0", "--rest-seconds", "0")
+DEFAULT = ("sor", 1, 14, 1)
 DRAWN = ("CrashSk", "CrashWa", "Fight")
 # Step of the scene over the step, substeps x iterations.
 LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 7, 1),
@@ -32,7 +33,7 @@ def nature():
 
     rows = [[f"steps of a frame, {way}", *of_frames(f"{way}_steps", str)] for way in ("soft", "ode")]
     rows += [[f"nine tenths of the bodies move by less [mm] with half as many, {way}", *lengths(f"{way}_halved_p90")] for way in ("soft", "ode")]
-    rows.append(["nine tenths are nearer [mm] by the other way", *lengths("apart_p90")])
+    rows.append(["nine tenths of the bodies end nearer [mm] than this by the two ways", *lengths("apart_p90")])
     rows += [[f"determined for {length} [%]", *(f"{100 * frames['determined'][rows, place].mean():.0f}" for rows in columns.values())]
              for place, length in enumerate(("1 mm", "1 cm", "10 cm"))]
     return programs.table(["nature", *programs.SCENES], rows)
@@ -68,7 +69,7 @@ def front():
 
 def of_scene(scene, found, unit_s, uncertainty_m):
     """What diagrams.fronts() draws of a scene."""
-    points = [{"stepper": setting[0], "cut": setting[1], "name": setting_name(setting), "time": case["frame_time_median"] / unit_s,
+    points = [{"stepper": setting[0], "cut": setting[1], "is_default": setting == DEFAULT, "time": case["frame_time_median"] / unit_s,
                "error_mm": 1e3 * case["defect_body_position_rms"]} for (its_scene, setting), case in found.items() if its_scene == scene]
     return {"points": points, "uncertainty_mm": 1e3 * uncertainty_m}
 

@@ -21,7 +21,7 @@ def best(points):
 
 
 def fronts(path, scenes):
-    """Error over time, a line a stepper through its best settings, for {scene: {"points": [{stepper, cut, time, error_mm}], "uncertainty_mm"}}.
+    """Error over time, a line a stepper through its best settings, for {scene: {"points": [{stepper, cut, time, error_mm, is_default}], "uncertainty_mm"}}.
     Written to a path below the project's root."""
     style = {"svg.hashsalt": "pbmpi", "text.color": GREY, "axes.edgecolor": GREY, "axes.labelcolor": GREY, "xtick.color": GREY, "ytick.color": GREY,
              "font.size": 9}
@@ -43,8 +43,11 @@ def draw_scene(axis, scene, drawn):
         for one in points:
             axis.plot(one["time"], one["error_mm"], MARKERS[one["cut"]], color=colour, markersize=4 if one in line else 2.5,
                       alpha=1 if one in line else 0.35, markeredgewidth=0)
+    for one in drawn["points"]:
+        if one["is_default"]:
+            axis.plot(one["time"], one["error_mm"], "o", color=GREY, markersize=10, fillstyle="none")
     axis.axhspan(1e-9, drawn["uncertainty_mm"], color=GREY, alpha=0.25, linewidth=0)
-    axis.set(xscale="log", yscale="log", title=scene, xlabel="time over `quick`, 20 iterations",
+    axis.set(xscale="log", yscale="log", title=scene, xlabel="time over that of quick, 20 iterations",
              ylim=(drawn["uncertainty_mm"] / 2, 2 * max(one["error_mm"] for one in drawn["points"])))
     axis.title.set_color(GREY)
 
@@ -56,4 +59,5 @@ def legend():
     return [*(entry(stepper, color=colour) for stepper, colour in COLOURS.items()),
             *(entry("the scene's step" if cut == 1 else f"1/{cut} of it", color=GREY, marker=marker, linestyle="none", markersize=4)
               for cut, marker in MARKERS.items()),
+            entry("the default", color=GREY, marker="o", linestyle="none", markersize=9, fillstyle="none"),
             entry("nature is known to", color=GREY, alpha=0.4, linewidth=6)]

@@ -74,7 +74,8 @@ void add_step_columns(const std::vector<Case>& cases, std::vector<io::TableColum
   columns.push_back(column("options", "", cases, [](const Case& one) { return options_text(one.stepper); }));
 }
 
-/// Columns "PREFIX_body_position_rms", _median, _p90, _p99, _max and so on, for the ErrorTable that `table` points to in each result.
+/// Columns "PREFIX_body_position_rms", _median, _p90, _p99, _max and so on, for the ErrorTable that `table`
+/// points to in each result.
 template <class Result>
 void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
                 const std::vector<Result>& results, std::vector<io::TableColumn>& columns) {
