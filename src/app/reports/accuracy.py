@@ -7,7 +7,7 @@ from reports.command_line import Command, add_scene_option, deliver, one_file, p
 from reports.document import PAGE, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study, require, write_file
 from reports.study import diagrams
-from reports.study.answers import LENGTHS_M, Limit, answer_json, answer_text, answers_asked, millimetres
+from reports.study.answers import LENGTHS_M, Limit, answer_json, answer_text, answers_asked, result_text
 from reports.words import number, percent, plural, stepper_in
 
 
@@ -242,12 +242,6 @@ def own_table(scene):
     return Table.of("Own solutions", columns, scene.own, text=text, shown_in=(TEXT,))
 
 
-def inside_text(scene, limit, one):
-    if not scene.is_inside(one, limit.measure):
-        return ""
-    return f": within the {1e3 * scene.uncertainty_m(limit.measure):.4g} mm to which nature is known"
-
-
 def choice_text(scene, limit):
     """Paragraphs on the setting that was asked for; none without a limit."""
     if not limit.is_asked():
@@ -255,8 +249,7 @@ def choice_text(scene, limit):
     one = limit.chosen(scene)
     if one is None:
         return f"\n\n{limit.asked()}: {limit.why_none(scene)}"
-    return (f"\n\n{limit.asked()}: {one.setting()} ({1e3 * one.time_s:.3f} ms, error {millimetres(one, limit.measure)}"
-            f"{inside_text(scene, limit, one)})\n\nrun: {one.run_command()}")
+    return f"\n\n{limit.asked()}: {one.setting()} ({result_text(limit, scene, one)})\n\nrun: {one.run_command()}"
 
 
 def determined_text(scene):
@@ -270,9 +263,10 @@ def scene_text(scene, limit):
     text = f"{plural(len(scene.settings), 'setting')}."
     if blown_up:
         text += f" {blown_up} of them blew up (inf or NaN) and {'is' if blown_up == 1 else 'are'} left out."
-    text += (" Error: of the bodies that nature determines to 1 mm, after one frame from nature's own state. Nature is the limit of ever "
+    text += (" Error: of the bodies of which nature is known to 1 mm, after one frame from nature's own state. Nature is the limit of ever "
              "shorter steps, reached in two ways: by springs (soft), and by ODE's rows with cones of friction (ode). It is determined for "
-             f"{determined_text(scene)}. Its uncertainty, what half the step changes or the two ways are apart: "
+             f"{determined_text(scene)}, that is, known to a tenth of it. Its uncertainty for the bodies that count, what half the step "
+             "changes or the two ways are apart: "
              f"{number(scene.uncertainty_m(limit.measure), '.4g', 1e3)} mm ({MEASURES[limit.measure].words}).")
     if scene.own:
         text += " Own rms: the error against the same equations solved by the same stepper with many iterations."

@@ -161,6 +161,7 @@ TEST(AccuracyCases, bad_values_are_named) {
   EXPECT_NE(refusal({"--floor-seeds", "0"}).find("--floor-seeds"), std::string::npos);
   EXPECT_NE(refusal({"--max-sweeps", "0"}).find("--max-sweeps"), std::string::npos);
   EXPECT_NE(refusal({"--nature-steps", "1"}).find("--nature-steps"), std::string::npos);
+  EXPECT_NE(refusal({"--nature-steps", "5"}).find("at least 6"), std::string::npos);
   EXPECT_NE(refusal({"--nature-error", "1"}).find("--nature-error"), std::string::npos) << "1 what?";
   EXPECT_NE(refusal({"--own-iterations", "-1"}).find("--own-iterations"), std::string::npos);
   EXPECT_NE(refusal({"--own-most-iterations", "2559"}).find("at least 2560"), std::string::npos);

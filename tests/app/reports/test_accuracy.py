@@ -148,12 +148,12 @@ class Answers(unittest.TestCase):
     def test_the_answers_are_one_sentence_that_says_whether_hard_cases_were_asked(self):
         text = answers.answer_text(self.cases, "rms", "rms of body positions")
         self.assertEqual(text, "Least error (rms of body positions) in 3.33 ms: sor single, 2 x 3, dt 0.01 s (3.000 ms, 4 mm); least time for "
-                         "1 mm: none, no setting of the study keeps it; least time for 1 cm: sor single, 2 x 3, dt 0.01 s (1.000 ms, 10 mm); "
-                         "least time for 10 cm: sor single, 2 x 3, dt 0.01 s (1.000 ms, 10 mm) (settings not held against the hard cases: "
-                         "--hard-cases stability.h5).")
+                         "1 mm: none, no setting of the study keeps it; least time for 1 cm: sor single, 2 x 3, dt 0.01 s (1.000 ms, 95 % within it, "
+                         "10 mm); least time for 10 cm: sor single, 2 x 3, dt 0.01 s (1.000 ms, 100 % within it, 10 mm) (settings not held "
+                         "against the hard cases: --hard-cases stability.h5).")
         for one in self.cases.settings:
             one.hard = HOLDS
-        self.assertTrue(answers.answer_text(self.cases, "rms", "").endswith("(1.000 ms, 10 mm)."))
+        self.assertTrue(answers.answer_text(self.cases, "rms", "").endswith("(1.000 ms, 100 % within it, 10 mm)."))
 
 
 class HardCases(unittest.TestCase):
@@ -191,9 +191,10 @@ class Nature(unittest.TestCase):
         cases = scene(uncertainty_mm=4)
         self.assertEqual((cases.uncertainty_m("rms"), cases.uncertainty_m("median")), (4e-3, 0))
         self.assertTrue(cases.is_inside(cases.settings[0], "rms"), "2 mm")
-        self.assertEqual(accuracy.inside_text(cases, Limit(), cases.settings[0]), ": within the 4 mm to which nature is known")
+        self.assertEqual(answers.result_text(Limit(budget_s=1), cases, cases.settings[0]).split(", ")[-1],
+                         "below the 4 mm to which nature is known")
         self.assertFalse(cases.is_inside(cases.settings[3], "rms"), "5 mm")
-        self.assertEqual(accuracy.inside_text(cases, Limit(), cases.settings[3]), "")
+        self.assertEqual(answers.result_text(Limit(budget_s=1), cases, cases.settings[3]), "2.000 ms, 5 mm")
         self.assertEqual(cases.determined(), {"1 mm": 0.25, "1 cm": 0.75, "10 cm": 1.0})
 
     def test_its_table_has_a_row_a_frame_of_the_scene(self):

@@ -93,9 +93,13 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   });
 }
 
-/// The case of nature: the way that gives its states, with the shortest steps.
+/// The case of nature: the way that gives its states, with the shortest steps. Throws core::InputError if
+/// they cannot be halved.
 AccuracyCase nature_case(int index, const StudyScene& scene, const AccuracyOptions& options) {
-  const int steps = options.nature.most_steps;
+  const int steps = options.nature.most_steps, least = 2 * scene.steps_per_frame();
+  core::require_input(steps >= least, "--nature-steps " + std::to_string(steps) + ": it must be at least " +
+                                          std::to_string(least) + ", twice the steps of a frame of " +
+                                          scene.name() + "; otherwise nothing says how far nature is known");
   return {index, CaseKind::nature, settings_of(Way::soft, scene.frame_s / steps, options.nature), steps};
 }
 

@@ -28,7 +28,6 @@ class WayStepper {
       ends = {steps, std::move(ends.finer), run(start, frame, steps)};
       if (core::quantile(distances_m(ends.coarser, ends.finer), nine_tenths) < limits_.error_m) break;
     }
-    if (ends.coarser.empty()) ends.coarser = ends.finer;
     return ends;
   }
 
