@@ -32,8 +32,7 @@ AccuracyOutcomes run_cases(const AccuracyOptions& options, const std::vector<Acc
       own.emplace(scene, *nature, cases, options);
       scene_of_nature = one.scene;
     }
-    if (one.kind == CaseKind::nature)
-      return {account_of(*nature), {frame_rows(*nature, scene.warmup), body_rows(*nature, scene.warmup)}};
+    if (one.kind == CaseKind::nature) return {account_of(*nature), {frame_rows(*nature), body_rows(*nature)}};
     if (is_own(one.kind)) return {own->judge(static_cast<int>(i))};
     return {run_case(one, scene, *nature, *rest, options.repeats, own->ends(one.own))};
   };

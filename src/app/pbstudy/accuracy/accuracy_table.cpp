@@ -9,12 +9,6 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
                                           const std::vector<CaseResult>& results) {
   using Case = const AccuracyCase&;
   using Result = const CaseResult&;
-  const auto shares = [&](const char* name, auto member) {
-    std::vector<double> numbers;
-    for (const CaseResult& result : results)
-      numbers.insert(numbers.end(), (result.*member).begin(), (result.*member).end());
-    return io::TableColumn{name, "", std::move(numbers), asked_m.size()};
-  };
   std::vector<io::TableColumn> columns = {
       scene_column("scene", scenes, cases, &StudyScene::name),
       column("kind", "", cases, [](Case c) { return case_kind_names[static_cast<std::size_t>(c.kind)]; }),
@@ -37,8 +31,8 @@ std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
       column("momentum_change", "kg m s-1", results, &CaseResult::momentum_change_ns),
       column("stretch", "", results, &CaseResult::max_stretch),
       column("solve_iterations", "", results, &CaseResult::solve_iterations),
-      shares("determined", &CaseResult::determined),
-      shares("within", &CaseResult::within),
+      wide_column("determined", "", results, &CaseResult::determined),
+      wide_column("within", "", results, &CaseResult::within),
       column("rest_fallen", "", results, [](Result r) { return r.rest.fallen; }),
       column("rest_fell_at", "s", results, [](Result r) { return r.rest.fell_at_s; }),
       column("rest_creep", "m/s", results, [](Result r) { return r.rest.creep_m_s; }),

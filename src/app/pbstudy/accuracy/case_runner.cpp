@@ -59,7 +59,7 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
       if (round > 0) continue;
       defect.add(
           worlds, [&](int world) -> const State& { return stepper.shown(world); },
-          static_cast<std::size_t>(i), scene.warmup);
+          static_cast<std::size_t>(i));
       if (own != nullptr) own_errors.append(errors_of(stepper, worlds, (*own)[static_cast<std::size_t>(i)]));
       observe(stepper, worlds, nature.states[frame + 1], result);
     }
@@ -77,17 +77,19 @@ std::vector<std::vector<double>> measure_defect(const AccuracyCase& one, const S
 
 }  // namespace
 
-void DefectOf::add(const Worlds& worlds, const std::function<const State&(int world)>& end, std::size_t i,
-                   int warmup) {
-  const States& wanted = nature_.states[static_cast<std::size_t>(warmup) + i + 1];
-  for (std::size_t world = 0; world < worlds.size(); ++world) {
-    const PoseErrors& uncertainty = nature_.frames[i].uncertainty[world];
-    PoseErrors errors =
-        analysis::compare(*worlds[world], view_of(end(static_cast<int>(world))), view_of(wanted[world]));
-    counts_.count(uncertainty, errors);
-    keep_judged(*worlds[world], uncertainty, errors);
-    errors_.append(errors);
-  }
+void DefectOf::add(const Worlds& worlds, const std::function<const State&(int world)>& end, std::size_t i) {
+  const States& wanted = nature_.end(i);
+  for (std::size_t world = 0; world < worlds.size(); ++world)
+    add_errors(
+        world, i,
+        analysis::compare(*worlds[world], view_of(end(static_cast<int>(world))), view_of(wanted[world])));
+}
+
+void DefectOf::add_errors(std::size_t world, std::size_t i, PoseErrors errors) {
+  const PoseErrors& uncertainty = nature_.frames[i].uncertainty[world];
+  counts_.count(uncertainty, errors);
+  keep_judged(*nature_.worlds[world], uncertainty, errors);
+  errors_.append(errors);
 }
 
 void DefectOf::put_into(CaseResult& result) const {
@@ -117,20 +119,15 @@ CaseResult run_case(const AccuracyCase& one, const StudyScene& scene, const Natu
 
 CaseResult account_of(const Nature& nature) {
   CaseResult result = unobserved();
-  WithinCounts counts;
-  PoseErrors uncertainty;
+  DefectOf defect(nature);
   std::vector<std::vector<double>> times_s;
-  for (const NatureFrame& frame : nature.frames) {
-    times_s.push_back({frame.cpu_s});
-    for (std::size_t world = 0; world < nature.worlds.size(); ++world) {
-      PoseErrors kept = frame.uncertainty[world];
-      counts.count(kept, kept);
-      keep_judged(*nature.worlds[world], frame.uncertainty[world], kept);
-      uncertainty.append(kept);
-    }
+  for (std::size_t i = 0; i < nature.frames.size(); ++i) {
+    times_s.push_back({nature.frames[i].cpu_s});
+    for (std::size_t world = 0; world < nature.worlds.size(); ++world)
+      defect.add_errors(world, i, nature.frames[i].uncertainty[world]);
   }
-  result.defect = analysis::summarize(uncertainty);
-  result.determined = counts.determined_shares();
+  defect.put_into(result);
+  result.within.fill(NAN);
   summarize_times(times_s, result);
   return result;
 }

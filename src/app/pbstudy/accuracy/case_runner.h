@@ -49,8 +49,9 @@ class DefectOf {
   explicit DefectOf(const Nature& nature) : nature_(nature) {}
 
   /// Takes the ends [num_worlds] of measured frame `i`.
-  void add(const Worlds& worlds, const std::function<const model::State&(int world)>& end, std::size_t i,
-           int warmup);
+  void add(const Worlds& worlds, const std::function<const model::State&(int world)>& end, std::size_t i);
+  /// Takes the errors of a world in measured frame `i`.
+  void add_errors(std::size_t world, std::size_t i, analysis::PoseErrors errors);
   void put_into(CaseResult& result) const;
 
  private:

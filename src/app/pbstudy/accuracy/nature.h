@@ -56,6 +56,10 @@ struct NatureFrame {
 /// A run in the limit; states are those of Way::soft with its shortest steps.
 struct Nature : Reference {
   std::vector<NatureFrame> frames;  ///< [measured frames]
+
+  int first_frame() const { return static_cast<int>(states.size() - frames.size()) - 1; }  ///< measured
+  /// [num_worlds] The end of measured frame `i`.
+  const States& end(std::size_t i) const { return states[states.size() - frames.size() + i]; }
 };
 Nature find_nature(const StudyScene& scene, const NatureLimits& limits);
 

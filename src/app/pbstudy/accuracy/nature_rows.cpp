@@ -21,9 +21,10 @@ io::TableColumn scene_of(const std::vector<StudyScene>& scenes, const std::vecto
   });
 }
 
-std::vector<io::TableColumn> frame_columns(const std::vector<NatureFrameRow>& rows) {
+std::vector<io::TableColumn> frame_columns(io::TableColumn scene, const std::vector<NatureFrameRow>& rows) {
   using Row = const NatureFrameRow&;
-  std::vector<io::TableColumn> columns = {column("frame", "", rows, &NatureFrameRow::frame)};
+  std::vector<io::TableColumn> columns = {std::move(scene),
+                                          column("frame", "", rows, &NatureFrameRow::frame)};
   for (std::size_t way = 0; way < way_names.size(); ++way) {
     const std::string name(way_names[way]);
     columns.push_back(column(name + "_steps", "", rows, [way](Row row) { return row.steps[way]; }));
@@ -34,36 +35,28 @@ std::vector<io::TableColumn> frame_columns(const std::vector<NatureFrameRow>& ro
   }
   columns.push_back(column("apart_median", "m", rows, &NatureFrameRow::apart_median_m));
   columns.push_back(column("apart_p90", "m", rows, &NatureFrameRow::apart_p90_m));
-  std::vector<double> determined;
-  for (Row row : rows) determined.insert(determined.end(), row.determined.begin(), row.determined.end());
-  columns.push_back({"determined", "", std::move(determined), asked_m.size()});
+  columns.push_back(wide_column("determined", "", rows, &NatureFrameRow::determined));
   return columns;
 }
 
-std::vector<io::TableColumn> body_columns(const std::vector<NatureBodyRow>& rows) {
-  std::vector<io::TableColumn> columns = {column("frame", "", rows, &NatureBodyRow::frame),
+std::vector<io::TableColumn> body_columns(io::TableColumn scene, const std::vector<NatureBodyRow>& rows) {
+  std::vector<io::TableColumn> columns = {std::move(scene), column("frame", "", rows, &NatureBodyRow::frame),
                                           column("world", "", rows, &NatureBodyRow::world),
                                           column("body", "", rows, &NatureBodyRow::body)};
-  for (std::size_t end = 0; end < end_names.size(); ++end) {
-    std::vector<double> positions;
-    positions.reserve(3 * rows.size());
-    for (const NatureBodyRow& row : rows) {
-      const double* first = row.ends.data() + 3 * end;
-      positions.insert(positions.end(), first, first + 3);
-    }
-    columns.push_back({end_names[end], "m", std::move(positions), 3});
-  }
+  for (std::size_t end = 0; end < end_names.size(); ++end)
+    columns.push_back(
+        wide_column(end_names[end], "m", rows, [end](const NatureBodyRow& row) { return row.ends[end]; }));
   columns.push_back(column("uncertainty", "m", rows, &NatureBodyRow::uncertainty_m));
   return columns;
 }
 
 }  // namespace
 
-std::vector<NatureFrameRow> frame_rows(const Nature& nature, int warmup) {
+std::vector<NatureFrameRow> frame_rows(const Nature& nature) {
   std::vector<NatureFrameRow> rows;
   for (const NatureFrame& frame : nature.frames) {
     NatureFrameRow row;
-    row.frame = warmup + static_cast<int>(rows.size());
+    row.frame = nature.first_frame() + static_cast<int>(rows.size());
     for (std::size_t way = 0; way < frame.ways.size(); ++way) {
       const std::vector<double> moved = distances_m(frame.ways[way].coarser, frame.ways[way].finer);
       row.steps[way] = frame.ways[way].steps;
@@ -81,7 +74,7 @@ std::vector<NatureFrameRow> frame_rows(const Nature& nature, int warmup) {
   return rows;
 }
 
-std::vector<NatureBodyRow> body_rows(const Nature& nature, int warmup) {
+std::vector<NatureBodyRow> body_rows(const Nature& nature) {
   std::vector<NatureBodyRow> rows;
   for (std::size_t frame = 0; frame < nature.frames.size(); ++frame) {
     const NatureFrame& found = nature.frames[frame];
@@ -89,14 +82,14 @@ std::vector<NatureBodyRow> body_rows(const Nature& nature, int warmup) {
     for (std::size_t world = 0; world < nature.worlds.size(); ++world) {
       for (std::size_t body = 0; body < soft.finer[world].position.size(); ++body) {
         NatureBodyRow row{0,
-                          warmup + static_cast<int>(frame),
+                          nature.first_frame() + static_cast<int>(frame),
                           static_cast<int>(world),
                           static_cast<int>(body),
                           {},
                           found.uncertainty[world].body_position_m[body]};
         auto* next = row.ends.begin();
         for (const States* ends : {&soft.coarser, &soft.finer, &ode.coarser, &ode.finer})
-          next = std::copy_n((*ends)[world].position[body].data(), 3, next);
+          std::copy_n((*ends)[world].position[body].data(), 3, (next++)->begin());
         rows.push_back(row);
       }
     }
@@ -108,11 +101,8 @@ std::map<std::string, std::vector<io::TableColumn>> nature_tables(const std::vec
                                                                   const std::vector<AccuracyCase>& cases,
                                                                   const std::vector<NatureFrameRow>& frames,
                                                                   const std::vector<NatureBodyRow>& bodies) {
-  std::map<std::string, std::vector<io::TableColumn>> tables = {{"nature", frame_columns(frames)},
-                                                                {"nature_bodies", body_columns(bodies)}};
-  tables["nature"].insert(tables["nature"].begin(), scene_of(scenes, cases, frames));
-  tables["nature_bodies"].insert(tables["nature_bodies"].begin(), scene_of(scenes, cases, bodies));
-  return tables;
+  return {{"nature", frame_columns(scene_of(scenes, cases, frames), frames)},
+          {"nature_bodies", body_columns(scene_of(scenes, cases, bodies), bodies)}};
 }
 
 }  // namespace pbmpi::app

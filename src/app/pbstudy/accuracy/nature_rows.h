@@ -28,12 +28,12 @@ struct NatureBodyRow {
   int case_index = 0;
   int frame = 0, world = 0, body = 0;
   /// Positions [m], world frame: soft with half as many steps, soft, ode with half as many, ode.
-  std::array<double, 12> ends{};
+  std::array<std::array<double, 3>, 4> ends{};
   double uncertainty_m = 0;
 };
 
-std::vector<NatureFrameRow> frame_rows(const Nature& nature, int warmup);
-std::vector<NatureBodyRow> body_rows(const Nature& nature, int warmup);
+std::vector<NatureFrameRow> frame_rows(const Nature& nature);
+std::vector<NatureBodyRow> body_rows(const Nature& nature);
 
 /// The two tables by name.
 std::map<std::string, std::vector<io::TableColumn>> nature_tables(const std::vector<StudyScene>& scenes,

@@ -160,8 +160,7 @@ CaseResult OwnSolutions::judge(int index) {
   for (std::size_t i = 0; i < judged.ends.size(); ++i) {
     defect.add(
         own.worlds,
-        [&](int world) -> const State& { return judged.ends[i][static_cast<std::size_t>(world)]; }, i,
-        scene_.warmup);
+        [&](int world) -> const State& { return judged.ends[i][static_cast<std::size_t>(world)]; }, i);
     own_errors.append(errors_between(own.worlds, judged.ends[i], judged.fewer[i]));
     times_s.push_back({judged.times_s[i]});
     for (const int count : judged.iterations[i]) iterations += (count - iterations) / ++num_solves;

@@ -88,12 +88,9 @@ std::map<std::string, std::vector<io::TableColumn>> stability_tables(const std::
                                          column("joint_gap", "m", points, &CurvePoint::joint_gap_m),
                                          column("penetration", "m", points, &CurvePoint::penetration_m),
                                          column("drift", "m", points, &CurvePoint::drift_m)};
-  std::vector<double> numbers;
-  for (const RecordedPose& pose : poses) numbers.insert(numbers.end(), pose.pose.begin(), pose.pose.end());
-  std::vector<io::TableColumn> replay = {column("case", "", poses, &RecordedPose::case_index),
-                                         column("time", "s", poses, &RecordedPose::time_s),
-                                         column("body", "", poses, &RecordedPose::body),
-                                         {"pose", "", std::move(numbers), 7}};
+  std::vector<io::TableColumn> replay = {
+      column("case", "", poses, &RecordedPose::case_index), column("time", "s", poses, &RecordedPose::time_s),
+      column("body", "", poses, &RecordedPose::body), wide_column("pose", "", poses, &RecordedPose::pose)};
   return {{"curves", std::move(curves)}, {"poses", std::move(replay)}};
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -29,6 +30,20 @@ io::TableColumn column(const std::string& name, const std::string& unit, const R
   values.reserve(rows.size());
   for (const auto& row : rows) values.push_back(static_cast<Value>(std::invoke(get, row)));
   return {name, unit, std::move(values)};
+}
+
+/// A column of the arrays that `get` gives of each row.
+template <class Rows, class Get>
+io::TableColumn wide_column(const std::string& name, const std::string& unit, const Rows& rows, Get&& get) {
+  using Numbers = std::decay_t<std::invoke_result_t<Get&, const typename Rows::value_type&>>;
+  constexpr std::size_t width = std::tuple_size_v<Numbers>;
+  std::vector<Stored<typename Numbers::value_type>> values;
+  values.reserve(width * rows.size());
+  for (const auto& row : rows) {
+    const Numbers& numbers = std::invoke(get, row);
+    values.insert(values.end(), numbers.begin(), numbers.end());
+  }
+  return {name, unit, std::move(values), width};
 }
 
 /// A column of what is known of each case's scene.
@@ -90,12 +105,9 @@ void add_errors(const std::string& prefix, analysis::ErrorTable Result::*table,
     add("p90", &analysis::ErrorSummary::p90);
     add("p99", &analysis::ErrorSummary::p99);
     add("max", &analysis::ErrorSummary::max);
-    std::vector<std::int64_t> bands;
-    for (const Result& result : results) {
-      const analysis::BandCounts& counts = (result.*table.*named.summary).bands;
-      bands.insert(bands.end(), counts.begin(), counts.end());
-    }
-    columns.push_back({name + "bands", "", std::move(bands), analysis::num_bands});
+    columns.push_back(wide_column(name + "bands", "", results, [&](const Result& result) {
+      return (result.*table.*named.summary).bands;
+    }));
     if (!std::string_view(named.name).starts_with("joint")) continue;
     columns.push_back(column(name + "broken", "", results,
                              [&](const Result& result) { return (result.*table.*named.summary).broken; }));

@@ -68,10 +68,9 @@ class Limit:
 def result_text(limit, scene, one):
     """What a setting that is chosen takes and reaches: "0.129 ms, 97 % within it, 2.655 mm"."""
     share = None if limit.budget_s else one.within().get(limit.text())
-    uncertainty_m = scene.uncertainty_m(limit.measure)
     parts = [f"{1e3 * one.time_s:.3f} ms", *([] if share is None else [f"{percent(share, 0)} within it"]), millimetres(one, limit.measure)]
-    if one.error_m(limit.measure) <= uncertainty_m:
-        parts.append(f"below the {1e3 * uncertainty_m:.4g} mm to which nature is known")
+    if scene.is_inside(one, limit.measure):
+        parts.append(f"below the {1e3 * scene.uncertainty_m(limit.measure):.4g} mm to which nature is known")
     return ", ".join(parts)
 
 
