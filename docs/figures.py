@@ -28,6 +28,7 @@ ENTRIES = {
     "interest": Entry("docs/effects.md", effects.interest, True, ["tests/bench/interest.py 5"]),
     "nature": Entry("docs/accuracy.md", accuracy.nature, False,
                     ["pbstudy accuracy --stepper quick --iterations 20 --dt 0.01 --estimates 0 --own-iterations 0"]),
+    "sensitivity": Entry("docs/accuracy.md", accuracy.sensitivity, False, ["docs/figures.py sensitivity"]),
     "front": Entry("docs/accuracy.md", accuracy.front, True,
                    ["pbstudy accuracy --stepper quick sor --law soft --precision double --iterations 5 20 80 --repeats 3"]),
     "estimates": Entry("docs/accuracy.md", accuracy.estimates, False,

@@ -1,7 +1,9 @@
 """Tables and the diagram of what accuracy costs: errors by nature from `pbstudy accuracy`, and joint gaps from `bench_worlds --substeps`."""
 import re
+import sys
 
 import h5py
+import numpy as np
 
 from tables import diagrams, programs
 
@@ -37,6 +39,34 @@ def nature():
     rows += [[f"determined for {length} [%]", *(f"{100 * frames['determined'][rows, place].mean():.0f}" for rows in columns.values())]
              for place, length in enumerate(("1 mm", "1 cm", "10 cm"))]
     return programs.table(["nature", *programs.SCENES], rows)
+
+
+def shifted_frames(scene, shift_m, steps=1536, frames=8, warmup=3, copies=8):
+    """Distances [measured frames][bodies] (m) between a frame's end in nature's soft way and its end from a start where every body is shifted
+    by about `shift_m` at random: the median over the shifted copies."""
+    sys.path.insert(0, str(programs.BIN.parent / "python"))
+    import pbmpi  # of the build that is measured
+
+    batch = pbmpi.Batch(scene, copies, dt=0.03 / steps, substeps=1)
+    random = np.random.default_rng(1)
+    moved = []
+    for _ in range(frames):
+        shifts = shift_m * random.normal(size=batch.position.shape)
+        shifts[0] = 0
+        first = [np.repeat(array[:1], copies, axis=0) for array in (batch.position, batch.orientation, batch.velocity, batch.angular_velocity)]
+        batch.set_state(first[0] + shifts, *first[1:])
+        batch.step(steps)
+        moved.append(np.median(np.linalg.norm(batch.position[1:] - batch.position[0], axis=2), axis=0))
+    return np.array(moved[warmup:])
+
+
+def sensitivity():
+    """How much a shift of a frame's start grows until its end."""
+    scenes = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Battle", "Fight")
+    growth = [f"{shifted_frames(scene, 1e-9).max() / 1e-9:,.0f}" for scene in scenes]
+    shares = [100 * (shifted_frames(scene, 1e-6) > 1e-3).mean() for scene in scenes]
+    return programs.table(["shift of the start", *scenes],
+                          [["largest growth of 1 nm", *growth], ["bodies that 1 um moves by more than 1 mm [%]", *(f"{share:.0f}" for share in shares)]])
 
 
 def setting_name(line):

@@ -231,10 +231,8 @@ void ContactBuilder<T, two_bodies, kind>::build_point(ContactSlot<T>& slot, cons
     slot.slides = square > T::broadcast(least * least) ? T::broadcast(1) : slot.slides;
   }
   point.bounce = bounce;
-  point.peak = zero;
   // A gap (negative depth) lets the bodies approach until they touch.
-  point.rhs =
-      given.depth < zero ? given.depth / parameters_.h : (parameters_.relaxes ? push : T::max(push, bounce));
+  point.rhs = given.depth < zero ? given.depth / parameters_.h : T::max(push, bounce);
   keep_depth(point);
   point.depth = point.planned = given.depth;
   if constexpr (Solver::friction)

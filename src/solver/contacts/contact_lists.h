@@ -51,14 +51,6 @@ class ContactList {
       ContactSolver<T, two_bodies, kind>::forget_open(twists, parameters.slip_velocity, slot,
                                                       points_of(slot));
   }
-  void note_touches() {
-    for (const Slot& slot : slots_) {
-      for (int i = 0; i < slot.num_points; ++i) {
-        Point& point = points_of(slot)[i];
-        point.peak = T::max(point.peak, point.normal.impulse);
-      }
-    }
-  }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     const ContactSolver<T, two_bodies, kind> solver(parameters, {});
     for (Slot& slot : slots_) solver.bounce(twists, slot, points_of(slot));
@@ -164,10 +156,6 @@ class ContactLists {
   /// See ContactSolver.
   void forget_open(const TwistRows<T>& twists, const Parameters& parameters) {
     for_each([&](auto& list) { list.forget_open(twists, parameters); });
-  }
-  /// Notes which points bear something at the end of a substep: they have touched, and may bounce.
-  void note_touches() {
-    for_each([](auto& list) { list.note_touches(); });
   }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
     for_each([&](auto& list) { list.bounce(twists, parameters); });

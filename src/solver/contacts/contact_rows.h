@@ -71,8 +71,7 @@ struct alignas(sizeof(V)) ContactPoint {
   V rhs;  ///< of the normal row; friction rows want 0 [m/s]
   V depth;
   V planned;  ///< [m] the depth that should be left by now
-  V bounce;   ///< [m/s] the speed at which the bodies are to part after the relaxing sweeps; 0: none
-  V peak;     ///< [N s] the largest normal impulse that a substep has left so far
+  V bounce;   ///< [m/s] the speed at which the bodies part once they have touched; 0: none, or they have
 };
 template <class V, bool two_bodies>
 struct alignas(sizeof(V)) ContactPoint<V, two_bodies, ContactKind::rough>

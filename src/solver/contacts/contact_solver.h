@@ -104,26 +104,31 @@ class ContactSolver {
     }
   }
 
-  /// After the relaxing sweeps: gives the points that have touched their separation speed, and the friction
-  /// that goes with it. Rounds, since friction changes the speeds of normals that do not go through a body's
-  /// centre.
+  /// After the relaxing sweeps: gives the points that bear something, which have touched, their separation
+  /// speed once, and the friction that goes with it. Rounds, since friction changes the speeds of normals
+  /// that do not go through a body's centre. The bodies part, so that such a point hands no force on.
   PBMPI_LANES void bounce(TwistRows<T>& twists, Slot& slot, Point* points) const {
     const V zero = T::broadcast(0);
-    V any = zero;
+    V any = zero, speeds[ManifoldOrder::most_points];
     for (int i = 0; i < slot.num_points; ++i) {
-      points[i].bounce = points[i].peak > zero ? points[i].bounce : zero;
-      any = T::max(any, points[i].bounce);
+      speeds[i] = points[i].normal.impulse > zero ? points[i].bounce : zero;
+      any = T::max(any, speeds[i]);
     }
     if (!T::any(any)) return;
     with_motions(twists, slot, [&](Motion& a, Motion& b) {
       repeat(any, num_rounds, a, b, [&](Motion& a_after, Motion& b_after, const SomeLanes& lanes) {
         for (int i = 0; i < slot.num_points; ++i) {
-          solve_bounce(slot, points[i], a_after, b_after);
+          solve_bounce(slot, points[i], speeds[i], a_after, b_after);
           if constexpr (friction) solve_point_friction(slot, points[i], a_after, b_after, lanes);
         }
         if constexpr (patched) solve_patch(slot, points, a_after, b_after, lanes);
       });
     });
+    for (int i = 0; i < slot.num_points; ++i) {
+      const auto parts = speeds[i] > zero;
+      points[i].bounce = parts ? zero : points[i].bounce;
+      points[i].normal.impulse = parts ? zero : points[i].normal.impulse;
+    }
   }
 
   PBMPI_LANES static Motion gather(const TwistRows<T>& twists, const std::int32_t* at) {
@@ -205,11 +210,12 @@ class ContactSolver {
     solve_normal(slot, point, a, b, lanes);
     if constexpr (friction) solve_point_friction(slot, point, a, b, lanes);
   }
-  PBMPI_LANES void solve_bounce(const ContactSlot<T>& slot, Point& point, Motion& a, Motion& b) const {
+  PBMPI_LANES void solve_bounce(const ContactSlot<T>& slot, Point& point, const V& bounce, Motion& a,
+                                Motion& b) const {
     const V zero = T::broadcast(0);
     Row& row = point.normal;
-    const V change = (point.bounce - speed(row, a, b)) * (row.scale * inverse_factor_);
-    const V applied = point.bounce > zero ? T::max(change, -row.impulse) : zero;
+    const V change = (bounce - speed(row, a, b)) * (row.scale * inverse_factor_);
+    const V applied = bounce > zero ? T::max(change, -row.impulse) : zero;
     row.impulse += applied;
     push(slot, row, applied, a, b);
   }

@@ -311,19 +311,17 @@ void StepLanes<T>::end_substep() {
   if (!relaxes()) return;
   twists_.start(worlds_.bodies);
   relax();
-  if (passes_.restitution) contacts_.note_touches();
+  bounce();
   need_slots(JointLaws<Scalar>::relaxing());
   twists_.need_rows(worlds_.bodies);
   contacts_.forget_open(worlds_.bodies.contact_twists, laws_.contacts());
-  if (last) {
-    remember();
-    bounce();
-  }
+  if (last) remember();
   end_twists(JointLaws<Scalar>::relaxing());
   worlds_.joints.for_each_active_batch([&](const Batch& batch) { damp(batch); });
 }
 
-/// One sweep over the contacts that touched and whose bodies approached faster than the threshold.
+/// One sweep over the contacts that have touched in this substep and whose bodies approached faster than the
+/// threshold: what bounces flies off at once, and not only in the next step.
 template <class T>
 void StepLanes<T>::bounce() {
   if (!passes_.restitution) return;

@@ -38,10 +38,10 @@ BOUNDS = {
     "top": Bound(0.13e-3, 0.97, f"{KICK}: v s / 2 = 0.05 mm at 0.15 m/s, which also makes it nod by as much"),
     "suspension": Bound(1.1e-3, 0.95, f"{KICK}: v s / 2 = 0.3 mm, and the spring is implicit, which damps it by w s / 2 = 0.45 % of critical more"),
     "motor": Bound(1.1e-3, 0.97, f"{KICK}: v s / 2 of 3 m/s = 1.07 mm"),
-    # A touch inside a step is found at its end, and the speed changes at the end of the next one, since bouncing comes after the last substep.
-    "bounce": Bound(110e-3, 0.85, "each impact up to two steps late, here 1.8 to 1.9: at 4.4 m/s until then and 3.5 m/s from then on, three times"),
-    "cradle": Bound(67e-3, 0.85, "each of three impacts up to two steps late, at 2 m/s"),
-    "impact": Bound(53e-3, 0.85, "up to two steps late, at 4.5 m/s of change"),
+    # A touch inside a step is found at its end, and the bodies part in the first substep of the next one.
+    "bounce": Bound(66e-3, 0.85, "each impact up to a step late: at 4.4 m/s until then and 3.5 m/s from then on"),
+    "cradle": Bound(33e-3, 0.85, "each of three impacts up to a step late, at 2 m/s"),
+    "impact": Bound(44e-3, 0.85, "up to a step late, at 4.5 m/s of change"),
 }
 
 

@@ -11,16 +11,17 @@
 
 namespace pbmpi::scenes {
 
-/// A scene that comes with pbmpi, with its own time step and, for quick, its own iterations.
+/// A scene that comes with pbmpi, with its own time step or an nth of it, and, for quick, its own iterations.
 class SteppedScene {
  public:
   explicit SteppedScene(const std::string& name, const model::EffectChoices& effects = {},
-                        stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor)) {
+                        stepping::StepperSettings settings = default_settings(stepping::StepperKind::sor),
+                        int parts = 1) {
     const auto scene = parse_scene(find_scene(name), {}, effects);
-    settings.dt_s = scene->defaults().dt_s;
+    settings.dt_s = scene->defaults().dt_s / parts;
     if (settings.kind != stepping::StepperKind::sor) settings.iterations = scene->defaults().iterations;
     dt_s_ = settings.dt_s;
-    frame_s_ = scene->defaults().steps_per_frame * dt_s_;
+    frame_s_ = scene->defaults().steps_per_frame * scene->defaults().dt_s;
     model_ = scene->build(0, 1);
     stepper_ = make_stepper(settings);
     stepper_->add(0, model_, model::initial_state(*model_), 0);
