@@ -29,12 +29,14 @@ Session::Session(int& argc, char**& argv) : exceptions_at_start_(std::uncaught_e
   check(MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided), "MPI_Init_thread");
   check(MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
   check(MPI_Comm_set_errhandler(MPI_COMM_SELF, MPI_ERRORS_RETURN), "MPI_Comm_set_errhandler");
+  segments_.record();
 }
 
 Session::~Session() {
   if (std::uncaught_exceptions() > exceptions_at_start_) return;
   const core::Awaited all_ranks("all ranks to end (MPI_Finalize)");
   MPI_Finalize();  // a destructor has nobody to report an error to
+  segments_.forget();
 }
 
 void Session::abort(int exit_code) {

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "mpi/comm/shared_segments.h"
+
 namespace pbmpi::mpi {
 
 /// Starts MPI, and ends it with the scope. Create one per program, first thing in main(). From then on MPI's
@@ -24,6 +26,7 @@ class Session {
 
  private:
   int exceptions_at_start_;
+  SharedSegments segments_;
 };
 
 /// Name and version of the MPI library, one line. Needs no session.

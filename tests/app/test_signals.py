@@ -1,4 +1,5 @@
 """What a dead run leaves behind stops no later one, and a run hears signals at each moment of its life."""
+import contextlib
 import ctypes
 import os
 import signal
@@ -23,6 +24,16 @@ def hold_semaphore(test, name):
 
 def shared_pointers():
     return [name for name in os.listdir("/dev/shm") if name.startswith("sem.OMPIO_")]
+
+
+def records():
+    """The process of each record of segments in shared memory, and the names in it."""
+    found = {}
+    for name in os.listdir("/dev/shm"):
+        if name.startswith("pbmpi-segments-"):
+            with contextlib.suppress(FileNotFoundError), open(f"/dev/shm/{name}", encoding="utf-8") as file:
+                found[int(name.rsplit("-", 1)[1])] = file.read().split()
+    return found
 
 
 def memory_bytes(pid):
@@ -59,6 +70,32 @@ class Signals(ProgramTest):
         for pid in rank_pids(process).values():
             os.kill(pid, signal.SIGTERM)
         self.assertEqual(process.wait(timeout=TIMEOUT_S), 75)
+
+    def test_segments_of_a_killed_run_are_removed_by_the_next_and_those_of_a_living_one_are_not(self):
+        living, killed = (self.start(2, "--scene", "CrashSk", "--frames", "1000000", "--record-every", "1000", "--quiet", "--output", name)
+                          for name in ("living.h5", "killed.h5"))
+        for name in ("living.h5", "killed.h5"):
+            wait_until(lambda name=name: os.path.exists(self.path(name)), "the file's skeleton")
+        own = {process: {pid: records().get(pid, []) for pid in rank_pids(process).values()} for process in (living, killed)}
+        if not all(own[killed].values()):
+            self.skipTest("MPI keeps no segments in /dev/shm")
+        os.killpg(killed.pid, signal.SIGKILL)
+        for pid in own[killed]:
+            os.kill(pid, signal.SIGKILL)
+        killed.wait(timeout=TIMEOUT_S)
+        self.assertTrue(any(os.path.exists(f"/dev/shm/{name}") for names in own[killed].values() for name in names))
+        wait_until(lambda: not any(os.path.exists(f"/proc/{pid}") for pid in own[killed]), "the killed ranks' end")
+        self.assertEqual(self.pbmpi(2, *SMALL, "--no-output").returncode, 0)
+        for pid, names in own[killed].items():
+            self.assertNotIn(pid, records())
+            self.assertEqual([name for name in names if os.path.exists(f"/dev/shm/{name}")], [])
+        for pid, names in own[living].items():
+            self.assertEqual(records()[pid], names)
+            self.assertTrue(all(os.path.exists(f"/dev/shm/{name}") for name in names))
+        for pid in own[living]:
+            os.kill(pid, signal.SIGTERM)
+        self.assertEqual(living.wait(timeout=TIMEOUT_S), 75)
+        self.assertFalse(set(own[living]) & set(records()), "who ends in good order leaves no record")
 
     def test_a_signal_while_worlds_are_built_ends_the_run_at_once(self):
         for number in (signal.SIGINT, signal.SIGTERM):
