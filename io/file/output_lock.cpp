@@ -7,6 +7,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -85,13 +86,42 @@ std::string beside(const std::string& path, const std::string& prefix, const std
   return (file.parent_path() / (prefix + name + suffix)).string();
 }
 
+constexpr const char* unfinished_end = ".part";
+
+/// What follows the name of an output in that of a temporary file of a process of this host.
+std::string unfinished_begin() { return "." + host_name() + "-"; }
+
 /// Removes a dead holder's temporary file; a name that is no temporary file beside `path` is left alone.
 void remove_unfinished(const std::string& path, const Holder& holder) {
   const fs::path temporary = fs::path(path).parent_path() / holder.temporary;
   if (holder.temporary.empty() || holder.temporary.find('/') != std::string::npos ||
-      !holder.temporary.ends_with(".part"))
+      !holder.temporary.ends_with(unfinished_end))
     return;
   unlink(temporary.c_str());
+}
+
+/// Removes temporary files of dead processes of this host that no lock file names any more.
+void remove_unfinished(const std::string& path) {
+  const fs::path file(path);
+  const std::string begin = file.filename().string() + unfinished_begin();
+  std::error_code ignored;
+  for (const auto& entry :
+       fs::directory_iterator(file.has_parent_path() ? file.parent_path() : ".", ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(begin) || !name.ends_with(unfinished_end)) continue;
+    Holder owner;
+    owner.process = std::atol(name.c_str() + begin.size());
+    owner.host = host_name();
+    if (is_dead(owner)) unlink(entry.path().c_str());
+  }
+}
+
+/// A pipe, a device or a link in the place of the lock file would lock nothing, or make this process wait.
+void require_plain_lock(const std::string& path, const std::string& lock_path) {
+  std::error_code ignored;
+  const fs::file_status status = fs::symlink_status(lock_path, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    refuse_output(path, lock_path + ", which locks it, is not a regular file", "remove that");
 }
 
 }  // namespace
@@ -107,8 +137,9 @@ void refuse_output_in_folder(const std::string& path, int error) {
 OutputLock::OutputLock(const std::string& path, bool has_locks)
     : path_(core::followed(path)),
       lock_path_(beside(path_, ".", ".lock")),
-      temporary_path_(beside(path_, "", "." + host_name() + "-" + std::to_string(getpid()) + ".part")) {
+      temporary_path_(beside(path_, "", unfinished_begin() + std::to_string(getpid()) + unfinished_end)) {
   using namespace std::chrono_literals;
+  require_plain_lock(path_, lock_path_);
   // 30 s: the ranks of a dead run end 1 to 2 s after it, but on a busy machine have been seen to take over 5
   // s.
   constexpr int most_tries = 600;
@@ -126,6 +157,7 @@ OutputLock::OutputLock(const std::string& path, bool has_locks)
   }
   lock_file_ = core::Leftover(lock_path_);
   remove_unfinished(path_, read_holder(lock_path_));
+  remove_unfinished(path_);
   write_record();
   temporary_file_ = core::Leftover(temporary_path_);
 }

@@ -25,8 +25,9 @@ class OutputLock {
  public:
   OutputLock() = default;
   /// Throws core::InputError if another process holds the lock (the message names host and process), or the
-  /// folder cannot be written to. Removes what a dead holder left unfinished. `has_locks`: whether the file
-  /// system has locks, for tests.
+  /// folder cannot be written to, or something else than a regular file is in the place of the lock file.
+  /// Removes what dead processes of this host, and the last holder, left unfinished. `has_locks`: whether the
+  /// file system has locks, for tests.
   explicit OutputLock(const std::string& path, bool has_locks = true);
   ~OutputLock() { release(); }
   OutputLock(OutputLock&& other) noexcept = default;

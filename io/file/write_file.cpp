@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "core/error.h"
 #include "core/system/paths.h"
@@ -24,6 +25,14 @@ namespace fs = std::filesystem;
 void sync_folder(const fs::path& folder) {
   const core::Descriptor opened(folder.empty() ? "." : folder.string(), O_RDONLY | O_DIRECTORY);
   if (opened.is_open()) fsync(opened.get());
+}
+
+[[noreturn]] void refuse(const std::string& path, const std::string& why) {
+  throw core::InputError("cannot write " + path + ": " + why + "; choose another place");
+}
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  throw core::RunError("cannot write " + path + ": " + core::reason_of(error));
 }
 
 /// Hands out pieces of bytes in order; `put` returns 0 or the errno of a failure, after which it takes no
@@ -72,7 +81,7 @@ void replace(const OutputLock& lock, const BytePieces& pieces) {
   if (error == 0 && std::rename(lock.temporary_path().c_str(), lock.path().c_str()) != 0) error = errno;
   if (error != 0) {
     unlink(lock.temporary_path().c_str());
-    throw core::RunError("cannot write " + lock.path() + ": " + core::reason_of(error));
+    fail(lock.path(), error);
   }
   sync_folder(fs::path(lock.path()).parent_path());
 }
@@ -109,20 +118,36 @@ bool is_stream(const std::string& path) {
          open_file_of(path).is_one;
 }
 
-/// Returns 0, or the errno of the failed call.
-int write_stream(const std::string& path, const BytePieces& pieces) {
-  // A file that this process has open is written at its current position: opened anew it would be overwritten
-  // from the start.
-  if (const int own = open_file_of(path).own; own >= 0)
-    return pieces([own](std::span<const std::byte> bytes) { return core::write_all(own, bytes); });
-  core::Descriptor stream(path, O_WRONLY);
-  if (!stream.is_open()) return errno;
-  const int error = pieces([&](std::span<const std::byte> bytes) { return stream.write(bytes); });
-  return error != 0 ? error : stream.close();
+/// Opens a device or a pipe. A pipe that nobody opens for reading would make this process wait for ever; its
+/// reader may start a little later.
+core::Descriptor open_stream(const std::string& path) {
+  using namespace std::chrono_literals;
+  constexpr int most_tries = 100;
+  core::Descriptor stream(path, O_WRONLY | O_NONBLOCK);
+  for (int tries = 1; !stream.is_open() && errno == ENXIO && fs::is_fifo(path) && tries < most_tries;
+       ++tries) {
+    std::this_thread::sleep_for(50ms);
+    stream = core::Descriptor(path, O_WRONLY | O_NONBLOCK);
+  }
+  if (stream.is_open()) fcntl(stream.get(), F_SETFL, fcntl(stream.get(), F_GETFL) & ~O_NONBLOCK);
+  return stream;
 }
 
-[[noreturn]] void refuse(const std::string& path, const std::string& why) {
-  throw core::InputError("cannot write " + path + ": " + why + "; choose another place");
+void write_stream(const std::string& path, const BytePieces& pieces) {
+  // A file that this process has open is written at its current position: opened anew it would be overwritten
+  // from the start.
+  if (const int own = open_file_of(path).own; own >= 0) {
+    if (const int error =
+            pieces([own](std::span<const std::byte> bytes) { return core::write_all(own, bytes); });
+        error != 0)
+      fail(path, error);
+    return;
+  }
+  core::Descriptor stream = open_stream(path);
+  if (!stream.is_open()) refuse(path, errno == ENXIO ? "nobody reads from it" : core::reason_of(errno));
+  int error = pieces([&](std::span<const std::byte> bytes) { return stream.write(bytes); });
+  if (error == 0) error = stream.close();
+  if (error != 0) fail(path, error);
 }
 
 }  // namespace
@@ -149,23 +174,15 @@ void write_file(const std::string& path, std::string_view text) {
 
 void write_file(const std::string& path, const TextPieces& pieces) {
   if (path.empty()) refuse("a file without a name", "the name is empty");
-  if (is_stream(path)) {
-    if (const int error = write_stream(path, bytes_of(pieces)); error != 0)
-      refuse(path, core::reason_of(error));
-    return;
-  }
+  if (is_stream(path)) return write_stream(path, bytes_of(pieces));
   struct stat status {};
   if (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode))
     refuse(path, S_ISDIR(status.st_mode) ? core::reason_of(EISDIR) : "it is a device");
   if (access(path.c_str(), F_OK) == 0 && access(path.c_str(), W_OK) != 0)
     refuse(path, core::reason_of(errno));
   if (content_of(path) == Content::hdf5) refuse(path, "an HDF5 file is there, which a text would destroy");
-  try {
-    const OutputLock lock(path);
-    replace(lock, bytes_of(pieces));
-  } catch (const core::RunError& error) {
-    throw core::InputError(std::string(error.what()) + "; choose another place");
-  }
+  const OutputLock lock(path);
+  replace(lock, bytes_of(pieces));
 }
 
 void replace_file(const OutputLock& lock, std::span<const std::byte> bytes) {

@@ -22,9 +22,10 @@ Content content_of(const std::string& path);
 /// Puts `bytes` under the name `path`: writes them next to it under a name of this process's own, waits until
 /// they are on the disk, and renames, keeping the permissions of the old file. A kill at any moment leaves
 /// either the old file or the new one. Links are followed, even one that points to nothing. Devices, pipes
-/// and the process's own open files (/dev/stdout) are written to directly. Throws core::InputError with the
-/// system's reason and keeps the old file; also if another process writes it, or if it is an HDF5 file, which
-/// a text never replaces.
+/// and the process's own open files (/dev/stdout) are written to directly. Throws core::InputError for a
+/// place that cannot be written to, a pipe that nobody opens for reading within 5 s, a file that another
+/// process writes, and an HDF5 file, which a text never replaces; core::RunError with the system's reason if
+/// a write fails (a full disk). Keeps the old file then.
 void write_file(const std::string& path, std::string_view text);
 
 /// Hands out a text piece by piece, where it is too long to be held.

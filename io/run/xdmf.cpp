@@ -126,6 +126,8 @@ std::string document(const Bodies& b) {
 
 /// Does an existing file show the bodies of another run, or is it no sidecar at all?
 bool is_of_others(const std::string& run_path, const std::string& xdmf_path) {
+  std::error_code ignored;
+  if (fs::exists(xdmf_path, ignored) && !fs::is_regular_file(xdmf_path, ignored)) return true;
   std::ifstream file(xdmf_path, std::ios::binary);
   constexpr std::size_t enough = 4096;  // the first grid names the run
   std::string begin(enough, '\0');

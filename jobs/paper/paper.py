@@ -11,7 +11,7 @@ import sys
 sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[2] / "src/app"))  # the package reports
 
 from reports.document import Report  # noqa: E402
-from reports.files import BadInput, require  # noqa: E402
+from reports.files import BadInput, WriteError, require  # noqa: E402
 from reports.command_line import deliver  # noqa: E402
 
 import data  # noqa: E402
@@ -119,6 +119,9 @@ def main():
     except BadInput as error:
         print(f"paper.py: {error}", file=sys.stderr)
         return 2
+    except WriteError as error:
+        print(f"paper.py: {error}", file=sys.stderr)
+        return 1
     except BrokenPipeError:  # of a reader such as head
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:

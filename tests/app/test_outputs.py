@@ -207,6 +207,34 @@ class NothingOverwritten(ProgramTest):
             os.remove(self.path("pipe"))
         self.assertTrue(os.path.islink("/dev/stdout"))
 
+    def test_a_pipe_that_nobody_reads_and_what_is_no_plain_file_keep_nobody_waiting(self):
+        os.mkfifo(self.path("pipe"))
+        for words in (["run.h5", "--html", "pipe"], ["run.h5", "--xdmf", "pipe"], ["csv", "run.h5", "--output", "pipe"]):
+            self.refused(self.report(*words), "pipe", "nobody reads")
+        self.refused(self.pbmpi(2, *SHORT, "--output", "pipe"), "not a regular file")
+        self.refused(self.pbmpi(2, *SHORT, "--output", "a.h5", "--checkpoint", "pipe"), "not a regular file")
+        os.mkfifo(self.path("a.xdmf"))
+        result = self.pbmpi(1, *SHORT, "--output", "a.h5")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("warning: no sidecar", result.stderr)
+
+    def test_a_lock_file_that_is_no_plain_file_is_refused(self):
+        pbstudy = ["mpirun", "-n", "1", os.path.join(os.path.dirname(PBMPI), STUDY[0])]
+        commands = {".new.h5.lock": lambda: self.pbmpi(2, *SHORT, "--output", "new.h5"),
+                    ".ck.h5.lock": lambda: self.pbmpi(1, *SHORT, "--output", "new.h5", "--checkpoint", "ck.h5"),
+                    ".study.h5.lock": lambda: self.run_command([*pbstudy, *STUDY[1:], "--output", "study.h5"]),
+                    ".run.h5.lock": lambda: self.report("repair", "run.h5"),
+                    ".new.xdmf.lock": lambda: self.report("run.h5", "--xdmf", "new.xdmf")}
+        for make in (os.mkfifo, os.mkdir, lambda path: os.symlink("pipe", path), lambda path: os.symlink("/dev/null", path),
+                     lambda path: os.symlink("nothing", path)):
+            for lock, command in commands.items():
+                make(self.path(lock))
+                self.refused(command(), f"{lock}, which locks it, is not a regular file")
+                (os.rmdir if os.path.isdir(self.path(lock)) else os.remove)(self.path(lock))
+            if not os.path.exists(self.path("pipe")):
+                os.mkfifo(self.path("pipe"))
+        self.assertEqual(sorted(os.listdir(self.folder)), ["pipe", "run.h5", "run.xdmf"])
+
     @unittest.skipUnless(os.geteuid() == 0, "making a device needs root")
     def test_a_device_is_not_replaced_by_a_file(self):
         os.mknod(self.path("null"), 0o666 | stat.S_IFCHR, os.makedev(1, 3))

@@ -1,6 +1,7 @@
 #include "io/file/output_target.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -121,6 +122,34 @@ TEST(OutputLock, is_freed_by_death_and_cleans_up_after_the_dead) {
     EXPECT_EQ(scratch.num_files(), 2u) << "lock and half a file";
     EXPECT_EQ(lock_refusal(scratch.file("run.h5"), has_locks), "locked");
     EXPECT_EQ(scratch.num_files(), 0u);
+  }
+}
+
+TEST(OutputLock, removes_what_dead_processes_left_though_no_lock_names_it) {
+  const Scratch scratch;
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  std::string mine;
+  { mine = OutputLock(scratch.file("run.h5")).temporary_path(); }
+  const auto name_of = [&](pid_t process) {
+    const std::string own = std::to_string(getpid()) + ".part";
+    return mine.substr(0, mine.size() - own.size()) + std::to_string(process) + ".part";
+  };
+  int status = 0;
+  waitpid(child, &status, 0);
+  const std::string of_init = name_of(1), of_other_host = scratch.file("run.h5.elsewhere-1.part");
+  for (const std::string& name : {name_of(child), of_init, of_other_host}) std::ofstream(name) << "half";
+  EXPECT_EQ(lock_refusal(scratch.file("run.h5"), true), "locked");
+  EXPECT_FALSE(std::filesystem::exists(name_of(child)));
+  EXPECT_TRUE(std::filesystem::exists(of_init)) << "that process lives";
+  EXPECT_TRUE(std::filesystem::exists(of_other_host));
+}
+
+TEST(OutputLock, refuses_a_lock_file_that_is_not_a_regular_file) {
+  for (const bool has_locks : {true, false}) {
+    const Scratch scratch;
+    ASSERT_EQ(mkfifo(scratch.file(".run.h5.lock").c_str(), 0600), 0);
+    EXPECT_NE(lock_refusal(scratch.file("run.h5"), has_locks).find("not a regular file"), std::string::npos);
   }
 }
 

@@ -10,8 +10,7 @@ if __package__ in (None, ""):
     sys.path[0] = str(pathlib.Path(__file__).absolute().parents[1])
 
 try:
-    from reports.files import BadInput, end_without_leftovers
-    from reports.command_line import PrintError
+    from reports.files import BadInput, WriteError, end_without_leftovers
 except ImportError as error:
     print(f"pbreport: this report needs Python's {error.name}, which is not there; install it (Debian: python3-{error.name})", file=sys.stderr)
     sys.exit(1)
@@ -41,7 +40,7 @@ def main(words):
         report.run(words[1:])
     except BadInput as error:
         return fail(error, 2)
-    except PrintError as error:
+    except WriteError as error:
         return fail(error, 1)
     except MemoryError:
         return fail("there is not enough memory for what is to be read", 1)

@@ -9,7 +9,7 @@ import sys
 import textwrap
 
 from reports import document, page
-from reports.files import BadInput, require, write_file
+from reports.files import BadInput, WriteError, require, write_file
 
 UNITS = {"time": {"us": 1e-6, "ms": 1e-3, "s": 1.0}, "length": {"mm": 1e-3, "cm": 1e-2, "m": 1.0}}
 WRITTEN = ("html", "csv", "output", "write_config")  # options that name a file to write
@@ -197,20 +197,16 @@ def suggestion(word, names):
     return f"known: {', '.join(map(repr, names))}" if names else "there are none"
 
 
-class PrintError(Exception):
-    """Standard output takes no more. Ends the program with exit code 1."""
-
-
 def put(text):
-    """Prints all of it, or raises PrintError."""
+    """Prints all of it, or raises WriteError."""
     if sys.stdout is None:
-        raise PrintError("the report cannot be written: standard output is closed")
+        raise WriteError("the report cannot be written: standard output is closed")
     try:
         sys.stdout.write(text)
         sys.stdout.flush()
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # or the interpreter complains as it ends
-        raise PrintError(f"the report cannot be written to standard output ({error.strerror}); is the disk full?") from None
+        raise WriteError(f"the report cannot be written to standard output ({error.strerror}); is the disk full?") from None
 
 
 def deliver(report, options, csv_columns=None, page_of=page.page_of):

@@ -1,9 +1,12 @@
 """Reads the files of pbmpi and pbstudy, and writes what a report leaves behind."""
 import contextlib
 import dataclasses
+import errno
 import os
 import signal
+import stat
 import tempfile
+import time
 
 import h5py
 import numpy as np
@@ -15,6 +18,10 @@ RUN, STUDY = "pbmpi-run", "pbmpi-study"
 
 class BadInput(Exception):
     """What is wrong, where, and what to do. Ends the program with exit code 2."""
+
+
+class WriteError(Exception):
+    """The system takes no more of an output, e.g. on a full disk. Ends the program with exit code 1."""
 
 
 def require(holds, message):
@@ -119,15 +126,39 @@ def own_output(path):
     return next((number for number in (1, 2) if same(number)), None)
 
 
+DISK_ERRORS = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.ESTALE)  # not the fault of a path
+
+
+def refusal_of(error, what):
+    """What to raise for an OSError of writing."""
+    return (WriteError if error.errno in DISK_ERRORS else BadInput)(f"{what}: {error.strerror}")
+
+
+def open_stream(path):
+    """A descriptor for writing to a device or a pipe. A pipe that nobody opens for reading would make this program wait for ever; its reader may
+    start a little later."""
+    for _ in range(100):
+        with contextlib.suppress(OSError):
+            descriptor = os.open(path, os.O_WRONLY | os.O_NONBLOCK)
+            os.set_blocking(descriptor, True)
+            return descriptor
+        if not stat.S_ISFIFO(os.stat(path).st_mode):
+            return os.open(path, os.O_WRONLY)
+        time.sleep(0.05)
+    raise BadInput(f"{path}: it cannot be written: nobody reads from this pipe")
+
+
 def write_file(path, text):
     """Puts the text, or all parts of one, under the name `path` in one go, keeping the permissions of an old file, which must not be HDF5:
-    that may be somebody's data. Devices, pipes and this program's own output are written to directly."""
+    that may be somebody's data. Devices, pipes and this program's own output are written to directly. Raises BadInput for a path that cannot be
+    written to, WriteError where a write fails."""
     data = (part.encode("utf-8", "replace") for part in ([text] if isinstance(text, str) else text))
     try:
         require(not os.path.isdir(path) and not path.endswith("/"), f"{path}: it is a folder; name a file to write")
         number = own_output(path)
+        require(not os.path.exists(path) or not stat.S_ISBLK(os.stat(path).st_mode), f"{path}: it cannot be written: it is a device")
         if number is not None or (os.path.exists(path) and not os.path.isfile(path)):
-            with open(path if number is None else number, "wb", closefd=number is None) as stream:
+            with open(open_stream(path) if number is None else number, "wb", closefd=number is None) as stream:
                 stream.writelines(data)
             return
         target, mode = os.path.realpath(path), None
@@ -138,7 +169,7 @@ def write_file(path, text):
             mode = os.stat(target).st_mode & 0o7777
         replace(target, data, mode)
     except OSError as error:
-        raise BadInput(f"{path}: it cannot be written: {error.strerror}") from None
+        raise refusal_of(error, f"{path}: it cannot be written") from None
 
 
 unfinished = set()  # names of files that are being written
@@ -168,7 +199,8 @@ def replace(target, data, mode):
         os.chmod(temporary, mode)
         os.replace(temporary, target)
     except BaseException:
-        os.unlink(temporary)
+        with contextlib.suppress(OSError):
+            os.unlink(temporary)
         raise
     finally:
         unfinished.discard(temporary)
