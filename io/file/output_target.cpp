@@ -87,6 +87,7 @@ OutputTarget& OutputTarget::operator=(OutputTarget&& other) noexcept {
   lock_ = std::move(other.lock_);
   file_ = std::move(other.file_);
   is_published_ = other.is_published_;
+  published_bytes_ = other.published_bytes_;
   return *this;
 }
 
@@ -108,6 +109,7 @@ void OutputTarget::publish(std::int64_t spare_bytes) {
     refuse_output(path(), core::reason_of(errno), "give another name");
   }
   is_published_ = true;
+  published_bytes_ = status.st_size;
 }
 
 OutputLock OutputTarget::take_lock() {
@@ -123,17 +125,15 @@ std::string OutputTarget::open_path() const {
 void OutputTarget::require_in_place() const {
   if (file_.is_at(path())) return;
   throw core::RunError(
-      "the file of this run was removed or replaced by somebody while it was written; run again, and "
-      "leave it alone");
+      path() +
+      " was removed or replaced by somebody while this run wrote it; run again, or go on from a checkpoint "
+      "(--resume), and leave the file alone");
 }
 
-std::string OutputTarget::shortage() const {
-  constexpr std::int64_t nothing_left = std::int64_t{64} * 1024;
+void OutputTarget::require_whole() const {
   struct stat status {};
-  if (fstat(file_.get(), &status) == 0 &&
-      static_cast<std::uint64_t>(status.st_size) > core::largest_file_bytes())
-    return core::reason_of(EFBIG);
-  return has_free(path(), nothing_left) ? "" : core::reason_of(ENOSPC);
+  if (fstat(file_.get(), &status) == 0 && status.st_size >= published_bytes_) return;
+  throw core::RunError("somebody has cut the file short while this run wrote it");
 }
 
 std::string OutputTarget::reserve(const std::vector<core::ByteRange>& ranges) const {

@@ -34,9 +34,8 @@ class OutputTarget {
   std::string open_path() const;
   /// Throws core::RunError if the published file no longer has its name: somebody removed or replaced it.
   void require_in_place() const;
-  /// Why a write may just have failed, which MPI-IO does not report: a full disk or a limit on the size of
-  /// files. Empty if neither is the case.
-  std::string shortage() const;
+  /// Throws core::RunError if the file is shorter than when it was published: somebody has cut it.
+  void require_whole() const;
   /// Reserves disk space for bytes that are about to be written, where the file system can; elsewhere checks
   /// that there is enough. Returns empty, or the reason why there is no space.
   std::string reserve(const std::vector<core::ByteRange>& ranges) const;
@@ -49,6 +48,7 @@ class OutputTarget {
   OutputLock lock_;
   core::Descriptor file_;  ///< open from the start, so that nobody can put another file in its place
   bool is_published_ = false;
+  std::int64_t published_bytes_ = 0;
 };
 
 }  // namespace pbmpi::io

@@ -5,7 +5,7 @@
 namespace pbmpi::io {
 namespace {
 
-void rewrite(const File& file, const char* object, const std::string& name, std::int64_t value) {
+void rewrite(const WrittenFile& file, const char* object, const std::string& name, std::int64_t value) {
   rewrite_attribute(file.id(), object, name, number_type(H5T_NATIVE_INT64), &value);
 }
 
@@ -18,18 +18,10 @@ void create_commit_attributes(hid_t root, hid_t events, const EventCounts& count
   for (const auto& [name, count] : counts) write_attribute(events, name, count);
 }
 
-CommitRecord::CommitRecord(const std::string& path) {
-  // With the serial driver a flush is a write; with MPI-IO it waits until all data since the previous flush
-  // are on the disk.
-  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
-  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
-  file_ = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");
-}
-
 void CommitRecord::commit(std::int64_t num_frames, const EventCounts& events) {
   rewrite_counts(events);
   rewrite(file_, "/", "frames_committed", num_frames);
-  flush();
+  file_.flush();
 }
 
 void CommitRecord::finish(bool complete, const std::string& state_hash, const EventCounts& events) {
@@ -38,13 +30,11 @@ void CommitRecord::finish(bool complete, const std::string& state_hash, const Ev
   rewrite_attribute(file_.id(), "/", "state_hash", text_type(hash_digits), padded.data());
   rewrite_counts(events);
   rewrite(file_, "/", "complete", complete ? 1 : 0);
-  flush();
+  file_.flush();
 }
 
 void CommitRecord::rewrite_counts(const EventCounts& events) {
   for (const auto& [name, count] : events) rewrite(file_, "/events", name, count);
 }
-
-void CommitRecord::flush() { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); }
 
 }  // namespace pbmpi::io

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "io/hdf5/hdf5_handle.h"
+#include "io/hdf5/written_file.h"
 
 namespace pbmpi::io {
 
@@ -16,16 +16,14 @@ inline constexpr std::size_t hash_digits = 16;
 using EventCounts = std::map<std::string, std::int64_t>;
 
 /// Creates the attributes that a CommitRecord overwrites, at their final size: a later change is a few bytes
-/// in place. Part of the skeleton: collective.
+/// in place. Part of the skeleton.
 void create_commit_attributes(hid_t root, hid_t events, const EventCounts& counts);
 
-/// Root's own handle of the file, separate from the one through which all ranks write data. With it no rank
-/// changes metadata through the common handle once the skeleton is complete: there an error on one rank (a
-/// full disk) would leave the others waiting inside HDF5.
+/// Root's own handle of the file, separate from the one through which all ranks write data.
 class CommitRecord {
  public:
   CommitRecord() = default;
-  explicit CommitRecord(const std::string& path);
+  explicit CommitRecord(const std::string& path) : file_(WrittenFile::open(path)) {}
 
   /// Declares the first frames committed; the caller has made sure that their rows are in the file.
   void commit(std::int64_t num_frames, const EventCounts& events);
@@ -33,14 +31,13 @@ class CommitRecord {
   void finish(bool complete, const std::string& state_hash, const EventCounts& events);
   /// Its handle of the file, for looking at datasets.
   hid_t id() const { return file_.id(); }
-  /// False if HDF5 could not write all of it.
-  bool close() { return file_.close(); }
+  /// Throws core::RunError unless all of it is written.
+  void close() { file_.close(); }
 
  private:
   void rewrite_counts(const EventCounts& events);
-  void flush();
 
-  File file_;
+  WrittenFile file_;
 };
 
 }  // namespace pbmpi::io

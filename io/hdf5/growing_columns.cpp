@@ -49,30 +49,42 @@ std::vector<std::string> GrowingTable::datasets(const std::string& group,
   return paths;
 }
 
-GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
-                           const std::vector<ColumnSpec>& columns, TableShape shape)
-    : ranks_(ranks), shape_(shape), items_(std::max<hsize_t>(shape.num_items, 1)) {
-  shape_.capacity = std::clamp<hsize_t>(shape.capacity, 1, std::max<hsize_t>(shape.num_rows, 1));
+void GrowingTable::create(hid_t file, const std::string& group, const std::vector<ColumnSpec>& columns,
+                          TableShape shape) {
+  const auto make = [&](const std::string& path, const Datatype& type, hsize_t num_items, hsize_t width,
+                        const std::string& unit) {
+    return create_growing(file, path, type, table_dims(shape.num_rows, num_items, width), unit);
+  };
   std::string paths;
   for (const ColumnSpec& spec : columns) paths += group + "/" + spec.name + "\n";
   // The checksums are created first: the last dataset in the file is dropped when a run is cut, if it is
   // large.
-  Column checksums = make_column(file, row_checksum_path(group + "/" + columns.front().name),
-                                 number_type(H5T_NATIVE_UINT64), 0, 1, "");
-  write_attribute(checksums.dataset.id(), "columns", paths);
+  const Dataset checksums =
+      make(row_checksum_path(group + "/" + columns.front().name), number_type(H5T_NATIVE_UINT64), 0, 1, "");
+  write_attribute(checksums.id(), "columns", paths);
   for (const ColumnSpec& spec : columns)
-    columns_.push_back(
-        make_column(file, group + "/" + spec.name, type_of(spec), shape.num_items, spec.width, spec.unit));
-  columns_.push_back(std::move(checksums));
+    make(group + "/" + spec.name, type_of(spec), shape.num_items, spec.width, spec.unit);
 }
 
-GrowingTable::Column GrowingTable::make_column(hid_t file, const std::string& path, const Datatype& type,
-                                               hsize_t num_items, hsize_t width,
-                                               const std::string& unit) const {
-  Column column{
-      path, owned<Datatype>(H5Tcopy(type.id()), "H5Tcopy"), {}, 0, std::max<hsize_t>(num_items, 1), nullptr};
-  column.item_bytes = H5Tget_size(type.id()) * width;
-  column.dataset = create_growing(file, path, type, table_dims(shape_.num_rows, num_items, width), unit);
+GrowingTable::GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
+                           const std::vector<ColumnSpec>& columns, TableShape shape)
+    : ranks_(ranks), shape_(shape), items_(std::max<hsize_t>(shape.num_items, 1)) {
+  shape_.capacity = std::clamp<hsize_t>(shape.capacity, 1, std::max<hsize_t>(shape.num_rows, 1));
+  for (const ColumnSpec& spec : columns)
+    columns_.push_back(
+        open_column(file, group + "/" + spec.name, type_of(spec), shape.num_items, spec.width));
+  columns_.push_back(open_column(file, row_checksum_path(group + "/" + columns.front().name),
+                                 number_type(H5T_NATIVE_UINT64), 0, 1));
+}
+
+GrowingTable::Column GrowingTable::open_column(hid_t file, const std::string& path, const Datatype& type,
+                                               hsize_t num_items, hsize_t width) const {
+  Column column{path,
+                owned<Datatype>(H5Tcopy(type.id()), "H5Tcopy"),
+                owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")"),
+                H5Tget_size(type.id()) * width,
+                std::max<hsize_t>(num_items, 1),
+                nullptr};
   // Not value-initialised: see the class comment.
   column.waiting.reset(new std::byte[shape_.capacity * column.items * column.item_bytes]);
   return column;
@@ -138,8 +150,8 @@ const std::byte* GrowingTable::unpack(hsize_t row, const std::byte* message) {
   return message;
 }
 
-void GrowingTable::exchange_items() {
-  if (ranks_.size() == 1) return;
+void GrowingTable::settle() {
+  if (ranks_.size() == 1 || num_waiting_ == 0) return;
   std::vector<std::vector<std::byte>> messages(static_cast<std::size_t>(ranks_.size()));
   for (int to = 0; to < ranks_.size(); ++to) {
     if (to == ranks_.rank()) continue;
@@ -155,26 +167,15 @@ void GrowingTable::exchange_items() {
   }
 }
 
-std::string GrowingTable::write(const PropertyList& transfer) {
-  if (num_waiting_ == 0) return {};
-  exchange_items();
+void GrowingTable::write() {
   const Range rows = share_of_rows(num_waiting_, ranks_.rank(), ranks_.size());
   add_checksums(rows);
-  std::string error;
-  collective_ = true;
-  for (Column& column : columns_) {
-    try {
-      write_rows(column.dataset, column.type.id(), {written_ + rows.first, rows.count},
-                 place(column, rows.first, 0), transfer.id(), column.path);
-      collective_ = was_collective(transfer) && collective_;
-    } catch (const core::RunError& e) {
-      if (error.empty()) error = e.what();
-    }
-  }
+  for (Column& column : columns_)
+    write_rows(column.dataset, column.type.id(), {written_ + rows.first, rows.count},
+               place(column, rows.first, 0), column.path);
   owned_.clear();
   written_ += num_waiting_;
   num_waiting_ = 0;
-  return error;
 }
 
 void GrowingTable::close() {

@@ -10,8 +10,8 @@
 
 #include "core/error.h"
 #include "core/system/descriptor.h"
+#include "io/hdf5/file_ranks.h"
 #include "io/hdf5/hdf5_handle.h"
-#include "io/hdf5/parallel_file.h"
 #include "io/hdf5/rows.h"
 
 namespace pbmpi::io {
@@ -19,7 +19,7 @@ namespace pbmpi::io {
 /// A column of a table: its name in the group, the type and number of an item's values, and their unit.
 struct ColumnSpec {
   std::string name;
-  hid_t native_type;  ///< borrowed; copied by create()
+  hid_t native_type;  ///< borrowed
   hsize_t width = 1;  ///< values per item; 1 = no extra dimension
   std::string unit = {};
   std::size_t text_bytes = 0;  ///< > 0: text of this length; native_type is ignored
@@ -33,14 +33,17 @@ struct TableShape {
 };
 
 /// Columns of one group that get the same rows, of which each rank owns some items. Before writing, the ranks
-/// exchange items, so that each rank has some rows whole and writes them in one piece: this replaces MPI-IO's
-/// collective buffering, which loses errors (parallel_file.cpp). Each row has a checksum, computed by the
-/// rank that writes it. A waiting row has room for all items; pages that a rank never touches take no memory.
+/// exchange items, so that each rank has some rows whole and writes them in one piece. Each row has a
+/// checksum, computed by the rank that writes it. A waiting row has room for all items; pages that a rank
+/// never touches take no memory.
 class GrowingTable {
  public:
   /// Paths of a table's datasets: of its columns, and of its rows' checksums.
   static std::vector<std::string> datasets(const std::string& group, const std::vector<ColumnSpec>& columns);
-  /// Makes the datasets. Collective.
+  /// Makes the datasets.
+  static void create(hid_t file, const std::string& group, const std::vector<ColumnSpec>& columns,
+                     TableShape shape);
+  /// Opens the datasets in the file of all ranks.
   GrowingTable(hid_t file, const FileRanks& ranks, const std::string& group,
                const std::vector<ColumnSpec>& columns, TableShape shape);
 
@@ -72,11 +75,10 @@ class GrowingTable {
   /// Bytes of a row with all items and columns.
   static std::size_t row_bytes(const std::vector<ColumnSpec>& columns, hsize_t num_items);
 
-  /// Writes the waiting rows. Collective, and therefore completed even if a column fails. Returns the first
-  /// error of this rank, empty if there was none.
-  std::string write(const PropertyList& transfer);
-  /// Was each column of the last write() written collectively?
-  bool wrote_collectively() const { return collective_; }
+  /// Sends the items of the waiting rows to the ranks that write them. Collective, before write().
+  void settle();
+  /// Writes the waiting rows that this rank has whole.
+  void write();
 
   /// Closes the datasets.
   void close();
@@ -98,8 +100,6 @@ class GrowingTable {
   std::byte* place(std::size_t column, hsize_t item) {
     return place(columns_[column], num_waiting_ - 1, item);
   }
-  /// Completes the rows that this rank writes.
-  void exchange_items();
   /// Appends this rank's items of a waiting row to `message`; unpack() puts such items into the row, and
   /// returns where the next items begin.
   void pack(hsize_t row, std::vector<std::byte>& message);
@@ -108,8 +108,8 @@ class GrowingTable {
   std::span<Column> own_columns() { return std::span(columns_).first(columns_.size() - 1); }
   /// Puts the checksums of the rows that this rank has whole.
   void add_checksums(Range rows);
-  Column make_column(hid_t file, const std::string& path, const Datatype& type, hsize_t num_items,
-                     hsize_t width, const std::string& unit) const;
+  Column open_column(hid_t file, const std::string& path, const Datatype& type, hsize_t num_items,
+                     hsize_t width) const;
 
   const FileRanks& ranks_;
   TableShape shape_;
@@ -118,7 +118,6 @@ class GrowingTable {
   std::vector<std::vector<Range>> owned_;  ///< [num_waiting] this rank's items of each row
   hsize_t num_waiting_ = 0;
   hsize_t written_ = 0;
-  bool collective_ = false;
 };
 
 /// Cuts a growing dataset, in a file that was opened anew, to its first rows; adds the bytes of the file that

@@ -223,7 +223,7 @@ void RawRows::read(hsize_t first, hsize_t count, void* values) const {
 }
 
 void RawRows::write(hsize_t first, hsize_t count, const void* values) const {
-  if (count > 0) write_rows(dataset, type.id(), {first, count}, values, H5P_DEFAULT, path);
+  write_rows(dataset, type.id(), {first, count}, values, path);
 }
 
 std::vector<std::string> names_in(hid_t file, const std::string& path) {

@@ -65,11 +65,11 @@ Dataspace select_rows(const Dataspace& in_file, Range rows) {
   return in_memory;
 }
 
-void write_rows(const Dataset& dataset, hid_t type, Range rows, const void* values, hid_t transfer,
-                const std::string& path) {
+void write_rows(const Dataset& dataset, hid_t type, Range rows, const void* values, const std::string& path) {
+  if (rows.count == 0) return;
   const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
   const Dataspace in_memory = select_rows(in_file, rows);
-  check(H5Dwrite(dataset.id(), type, in_memory.id(), in_file.id(), transfer, values),
+  check(H5Dwrite(dataset.id(), type, in_memory.id(), in_file.id(), H5P_DEFAULT, values),
         "H5Dwrite(" + path + ")");
 }
 

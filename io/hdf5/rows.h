@@ -36,10 +36,8 @@ void select_ranges(const Dataspace& space, const std::vector<Range>& ranges);
 /// Selects these rows of a dataset [rows][...] in `in_file`, and returns the space that they take in memory.
 Dataspace select_rows(const Dataspace& in_file, Range rows);
 
-/// Writes rows of a dataset, `values` in the memory type `type`. With a collective `transfer` a rank without
-/// rows takes part, too. `path`: of the dataset, for errors.
-void write_rows(const Dataset& dataset, hid_t type, Range rows, const void* values, hid_t transfer,
-                const std::string& path);
+/// Writes rows of a dataset, `values` in the memory type `type`. `path`: of the dataset, for errors.
+void write_rows(const Dataset& dataset, hid_t type, Range rows, const void* values, const std::string& path);
 
 /// Chunks for `dims`, row first: whole rows of 1 to 4 MiB (a row beyond that is cut along its items), or the
 /// whole dataset if it is smaller. Rows are spread evenly over the chunks, so the last is not half empty.

@@ -123,13 +123,6 @@ CommonTables tables_of(const std::vector<JoinPart>& parts, bool common_only) {
   return common;
 }
 
-File create_alone(const std::string& path) {
-  const auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
-  check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), "H5Pset_libver_bounds");
-  check(H5Pset_file_locking(access.id(), 0, 1), "H5Pset_file_locking");
-  return owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "H5Fcreate");
-}
-
 /// Writes the ranks and hosts of the part with the most ranks; a rank that had another host before lists
 /// both.
 void write_ranks(const std::vector<std::unique_ptr<Source>>& sources, hid_t to) {
@@ -243,6 +236,17 @@ std::int64_t bytes_of(const std::vector<std::string>& paths) {
   return bytes;
 }
 
+/// Declares the joined frames committed, and gives the file its name.
+void commit(OutputTarget& target, const JoinedRun& joined, const EventCounts& counts) {
+  CommitRecord record(target.temporary_path());
+  record.commit(joined.num_frames, counts);
+  record.finish(joined.complete, joined.state_hash, counts);
+  store_fixed_checksum(record.id());
+  store_end_checksum(record.id());
+  record.close();
+  target.publish();
+}
+
 }  // namespace
 
 JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& output, bool common_only) {
@@ -257,15 +261,19 @@ JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& ou
   }
   const JoinPlan plan(std::move(frames), sources.front()->run.record_every);
   const std::vector<JoinPart> parts = parts_of(sources);
+  JoinedRun joined;
+  EventCounts counts;
+  OutputTarget target;
+  WrittenFile file;
   try {
     const CommonTables common = tables_of(parts, common_only);
     require_equal_overlaps(parts, common, plan);
     const JoinedEvents events(parts, plan);
-    JoinedRun joined = describe(sources, plan);
+    joined = describe(sources, plan);
     joined.left_out = common.of_some;
 
-    OutputTarget target = output_target(output, filetype, bytes_of(paths));
-    File file = create_alone(target.temporary_path());
+    target = output_target(output, filetype, bytes_of(paths));
+    file = WrittenFile::create(target.temporary_path());
     std::set<std::string> left_out = result_datasets(parts.front().file);
     left_out.insert(common.left_out.begin(), common.left_out.end());
     CopyPlan copy{grown_datasets(parts, common, plan, events.num_rows()),
@@ -277,18 +285,17 @@ JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& ou
     write_parameters(sources, plan, provenance(joined, sources), file.id());
     write_joined_rows(parts, common, plan, file.id());
     events.write(file.id());
-    if (!file.close()) check(-1, "H5Fclose");
-    CommitRecord record(target.temporary_path());
-    record.commit(joined.num_frames, events.counts());
-    record.finish(joined.complete, joined.state_hash, events.counts());
-    store_fixed_checksum(record.id());
-    store_end_checksum(record.id());
-    if (!record.close()) check(-1, "H5Fclose");
-    target.publish();
-    return joined;
+    counts = events.counts();
   } catch (const core::RunError& error) {
     throw core::InputError("the files cannot be joined: " + std::string(error.what()));
   }
+  try {  // from here on it is the disk that fails, not what was read
+    file.close();
+    commit(target, joined, counts);
+  } catch (const core::RunError& error) {
+    throw core::RunError("cannot write " + output + ": " + error.what());
+  }
+  return joined;
 }
 
 }  // namespace pbmpi::io

@@ -24,7 +24,8 @@ struct JoinedRun {
 /// Writes the file `output`, which holds all that the file of an uninterrupted run holds. Frames that several
 /// files have must be equal bit for bit, except what clocks have measured; the later file's frames are taken.
 /// `common_only`: tables that not all files have are left out instead of refused. Throws core::InputError for
-/// files that are not of one run, frames that are missing, or an output that cannot be written.
+/// files that are not of one run, frames that are missing, or an output that cannot be created;
+/// core::RunError if a write fails.
 JoinedRun join_runs(const std::vector<std::string>& paths, const std::string& output, bool common_only);
 
 }  // namespace pbmpi::io

@@ -13,6 +13,7 @@
 #include "io/file/output_lock.h"
 #include "io/hdf5/chunk_ranges.h"
 #include "io/hdf5/read_columns.h"
+#include "io/hdf5/written_file.h"
 #include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
@@ -89,16 +90,26 @@ Repair repair(const std::string& path) {
   core::require_input(disk.is_open(),
                       path + ": it cannot be repaired: " + core::reason_of(errno) + "; make it writable");
   const std::int64_t before = bytes_on_disk(disk);
-  auto file = owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), "H5Fopen");
   Repair done;
-  done.frames = integer_attribute(file.id(), "/", "frames_committed");
-  const std::vector<Cut> cuts = cuts_of(file.id(), done.frames);
-  if (cuts.empty()) return done;
-  const Unused unused = unused_bytes(file.id(), cuts);
-  // Holes first: they change nothing that a reader sees, so a kill here leaves the file as it was.
-  core::punch_holes(disk.get(), unused.all);
-  shorten(file.id(), cuts);
-  if (!file.close()) check(-1, "H5Fclose");
+  Unused unused;
+  WrittenFile file;
+  try {
+    file = WrittenFile::open(path);
+    done.frames = integer_attribute(file.id(), "/", "frames_committed");
+    const std::vector<Cut> cuts = cuts_of(file.id(), done.frames);
+    if (cuts.empty()) return done;
+    unused = unused_bytes(file.id(), cuts);
+    // Holes first: they change nothing that a reader sees, so a kill here leaves the file as it was.
+    core::punch_holes(disk.get(), unused.all);
+    shorten(file.id(), cuts);
+  } catch (const core::RunError& error) {
+    throw core::InputError(path + ": it cannot be repaired: " + error.what());
+  }
+  try {
+    file.close();
+  } catch (const core::RunError& error) {
+    throw core::RunError("cannot write " + path + ": " + error.what());
+  }
   core::punch_holes(disk.get(), unused.in_kept_chunks);  // HDF5 has written these chunks whole
   fsync(disk.get());
   done.bytes_freed = before - bytes_on_disk(disk);
@@ -130,11 +141,7 @@ Repair repair_run(const std::string& path) {
   const OutputLock lock(path);
   remove_dead_locks(lock.path());
   open_run(lock.path());  // refuses a file that is not a run's
-  try {
-    return repair(lock.path());
-  } catch (const core::RunError& error) {
-    throw core::InputError(path + ": it cannot be repaired: " + error.what());
-  }
+  return repair(lock.path());
 }
 
 }  // namespace pbmpi::io

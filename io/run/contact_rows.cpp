@@ -58,18 +58,23 @@ std::int64_t ContactRows::spare_bytes(const RunShape& shape) {
   return std::max<std::int64_t>(most - expected_bytes(shape), 0);
 }
 
+void ContactRows::create(hid_t file, const RunShape& shape) {
+  GrowingTable::create(file, frame_group, frame_columns(), {static_cast<hsize_t>(shape.num_frames), 0});
+  const hsize_t most = capacity(shape);
+  const Dataset dataset =
+      create_growing(file, points, number_type(H5T_NATIVE_DOUBLE), {most, num_columns}, "", chunk_rows(most));
+  write_attribute(dataset.id(), "columns", column_names());
+}
+
 ContactRows::ContactRows(hid_t file, const FileRanks& ranks, const RunShape& shape,
                          std::vector<std::int64_t> geom_offset, hsize_t frames_held)
     : ranks_(ranks),
       geom_offset_(std::move(geom_offset)),
       capacity_(capacity(shape)),
       substep_s_(shape.substep_s),
+      dataset_(owned<Dataset>(H5Dopen2(file, points, H5P_DEFAULT), "H5Dopen(contacts)")),
       frames_(file, ranks, frame_group, frame_columns(),
-              {static_cast<hsize_t>(shape.num_frames), 0, frames_held}) {
-  dataset_ = create_growing(file, points, number_type(H5T_NATIVE_DOUBLE), {capacity_, num_columns}, "",
-                            chunk_rows(capacity_));
-  write_attribute(dataset_.id(), "columns", column_names());
-}
+              {static_cast<hsize_t>(shape.num_frames), 0, frames_held}) {}
 
 void ContactRows::add(const FrameSource& source) {
   Part& part = waiting_.emplace_back();
@@ -195,23 +200,14 @@ void ContactRows::settle() {
     if (fits) settled_ += static_cast<hsize_t>(count);
   }
   waiting_.clear();
+  frames_.settle();
 }
 
-std::string ContactRows::write(const PropertyList& transfer) {
-  std::string error = frames_.write(transfer);
-  collective_ = frames_.wrote_collectively();
-  if (settled_ == written_) return error;
-  try {
-    const Row nothing{};
-    write_rows(dataset_, H5T_NATIVE_DOUBLE, {first_own_, own_rows_.size()},
-               own_rows_.empty() ? nothing.data() : own_rows_.front().data(), transfer.id(), points);
-    collective_ = collective_ && was_collective(transfer);
-  } catch (const core::RunError& failed) {
-    if (error.empty()) error = failed.what();
-  }
+void ContactRows::write() {
+  frames_.write();
+  write_rows(dataset_, H5T_NATIVE_DOUBLE, {first_own_, own_rows_.size()}, own_rows_.data(), points);
   written_ = settled_;
   own_rows_.clear();
-  return error;
 }
 
 void ContactRows::close() {

@@ -40,7 +40,10 @@ class ContactRows {
   static std::int64_t expected_bytes(const RunShape& shape);
   static std::int64_t spare_bytes(const RunShape& shape);
 
-  /// Collective. `geom_offset`: [num_worlds + 1], where the geoms of each world begin; kept.
+  /// Makes the datasets.
+  static void create(hid_t file, const RunShape& shape);
+  /// Opens the datasets in the file of all ranks. `geom_offset`: [num_worlds + 1], where the geoms of each
+  /// world begin; kept.
   ContactRows(hid_t file, const FileRanks& ranks, const RunShape& shape,
               std::vector<std::int64_t> geom_offset, hsize_t frames_held);
 
@@ -48,10 +51,9 @@ class ContactRows {
   void add(const FrameSource& source);
   /// Collective: sends waiting rows to the ranks that write them, and determines where they are written.
   void settle();
-  /// Collective, after settle(). Returns the first error of this rank, empty if there was none.
-  std::string write(const PropertyList& transfer);
+  /// Writes the settled rows of this rank.
+  void write();
 
-  bool wrote_collectively() const { return collective_; }
   GrowingTable& frames() { return frames_; }
   /// Rows written or settled.
   hsize_t num_rows() const { return settled_; }
@@ -82,7 +84,6 @@ class ContactRows {
   std::vector<Row> own_rows_;  ///< settled, of this rank's frames
   hsize_t first_own_ = 0;      ///< row at which they are written
   hsize_t settled_ = 0, written_ = 0;
-  bool collective_ = true;
 };
 
 /// Spans of the first frames; none if the file has no contacts. Throws core::RunError where the spans are not

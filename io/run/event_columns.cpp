@@ -12,6 +12,8 @@ namespace {
 namespace event_kind = stepping::event_kind;
 
 constexpr const char* events_group = "/events";
+constexpr TableShape events_shape = {EventColumns::max_rows, 0, EventColumns::max_rows};
+
 /// The columns in the order in which EventColumns::add() puts values.
 const std::vector<ColumnSpec>& columns() {
   static const std::vector<ColumnSpec> specs = {{"frame", H5T_NATIVE_INT64}, {"kind", 0, 1, "", 24},
@@ -50,8 +52,10 @@ std::vector<std::string> EventColumns::datasets() { return GrowingTable::dataset
 
 std::size_t EventColumns::bytes() { return max_rows * GrowingTable::row_bytes(columns(), 1); }
 
+void EventColumns::create(hid_t file) { GrowingTable::create(file, events_group, columns(), events_shape); }
+
 EventColumns::EventColumns(hid_t file, const FileRanks& ranks)
-    : is_root_(ranks.is_root()), rows_(file, ranks, events_group, columns(), {max_rows, 0, max_rows}) {}
+    : is_root_(ranks.is_root()), rows_(file, ranks, events_group, columns(), events_shape) {}
 
 void EventColumns::add(const stepping::RunEvent& event) {
   const auto count = told_.find(count_name(event.kind));

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "io/hdf5/commit_record.h"
+#include "io/hdf5/file_ranks.h"
 #include "io/hdf5/growing_columns.h"
-#include "io/hdf5/parallel_file.h"
 #include "io/run/run_data.h"
 #include "stepping/run_event.h"
 
@@ -24,7 +24,9 @@ class EventColumns {
   /// Bytes of the preallocated rows.
   static std::size_t bytes();
 
-  /// Makes the datasets. Collective.
+  /// Makes the datasets.
+  static void create(hid_t file);
+  /// Opens the datasets in the file of all ranks.
   EventColumns(hid_t file, const FileRanks& ranks);
 
   /// Every rank is given the same event. An event without room for its row is still counted. Throws

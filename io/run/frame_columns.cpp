@@ -1,6 +1,7 @@
 #include "io/run/frame_columns.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/hdf5/columns.h"
 #include "io/setup/static_columns.h"
@@ -85,6 +86,16 @@ std::int64_t estimate_file_bytes(const RunShape& shape) {
          metadata_bytes;
 }
 
+void FrameColumns::create(hid_t file, const RunShape& shape) {
+  const std::vector<FrameTable> groups = frame_tables(shape);
+  EventColumns::create(file);
+  for (const FrameTable& group : groups)
+    GrowingTable::create(file, group.group, group.columns, table_shape(group, shape));
+  link_step_and_time(file);
+  link_observables(file, groups);
+  if (shape.optional.contacts) ContactRows::create(file, shape);
+}
+
 FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& setup, const RunShape& shape)
     : ranks_(ranks),
       table_(setup.table),
@@ -95,13 +106,13 @@ FrameColumns::FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& s
       groups_(frame_tables(shape)),
       events_(file, ranks),
       joint_offset_(offsets(ranks, setup, [](const auto& m) { return m.joints.size(); })) {
+  std::vector<std::int64_t> geom_offset;  // determined by all ranks, before what may fail on one of them
+  if (shape.optional.contacts)
+    geom_offset = offsets(ranks, setup, [](const auto& m) { return m.geoms.size(); });
   for (const FrameTable& group : groups_)
     rows_.emplace_back(file, ranks, group.group, group.columns, table_shape(group, shape));
-  link_step_and_time(file);
-  link_observables(file, groups_);
   if (shape.optional.contacts)
-    contacts_.emplace(file, ranks, shape, offsets(ranks, setup, [](const auto& m) { return m.geoms.size(); }),
-                      static_cast<hsize_t>(frames_held_));
+    contacts_.emplace(file, ranks, shape, std::move(geom_offset), static_cast<hsize_t>(frames_held_));
 }
 
 void FrameColumns::add(const stepping::FrameRecord& frame) {
@@ -138,22 +149,15 @@ hsize_t FrameColumns::frames_in(std::size_t bytes) const {
   return std::max<std::size_t>(bytes / bytes_each_, 1);
 }
 
-std::string FrameColumns::write(const PropertyList& transfer) {
-  std::string error;
-  wrote_collectively_ = true;
-  for (GrowingTable* table : tables()) {
-    if (table->num_waiting() == 0) continue;
-    const std::string failed = table->write(transfer);
-    if (error.empty()) error = failed;
-    wrote_collectively_ = wrote_collectively_ && table->wrote_collectively();
-  }
-  if (contacts_) {
-    const std::string failed = contacts_->write(transfer);
-    if (error.empty()) error = failed;
-    wrote_collectively_ = wrote_collectively_ && contacts_->wrote_collectively();
-  }
+void FrameColumns::settle() {
+  if (contacts_) contacts_->settle();
+  for (GrowingTable* table : tables()) table->settle();
+}
+
+void FrameColumns::write() {
+  for (GrowingTable* table : tables()) table->write();
+  if (contacts_) contacts_->write();
   frames_written_ = frames_added_;
-  return error;
 }
 
 std::vector<core::ByteRange> FrameColumns::cut(hid_t file) {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "io/hdf5/file_ranks.h"
 #include "io/hdf5/growing_columns.h"
-#include "io/hdf5/parallel_file.h"
 #include "io/run/contact_rows.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
@@ -29,10 +29,12 @@ struct ColumnRows {
   int frames_per_row;
 };
 
-/// Creates the growing datasets, takes in frames and events, and writes the waiting rows.
+/// The growing datasets: takes in frames and events, and writes the waiting rows.
 class FrameColumns {
  public:
-  /// Collective. `setup` matters for the tables of worlds.
+  /// Makes the datasets.
+  static void create(hid_t file, const RunShape& shape);
+  /// Opens the datasets in the file of all ranks. Collective. `setup` matters for the tables of worlds.
   FrameColumns(hid_t file, const FileRanks& ranks, const RunSetup& setup, const RunShape& shape);
 
   void add(const stepping::FrameRecord& frame);
@@ -48,14 +50,11 @@ class FrameColumns {
   /// Number of frames that fill this many bytes, at least one.
   hsize_t frames_in(std::size_t bytes) const;
 
-  /// Collective, before column_rows() and write(): determines where rows are written whose number is not
-  /// fixed.
-  void settle() {
-    if (contacts_) contacts_->settle();
-  }
-  /// Collective. Returns the first error of this rank, empty if there was none.
-  std::string write(const PropertyList& transfer);
-  bool wrote_collectively() const { return wrote_collectively_; }
+  /// Sends the waiting rows to the ranks that write them, and determines where rows are written whose number
+  /// is not fixed. Collective, before column_rows() and write().
+  void settle();
+  /// Writes the settled rows of this rank.
+  void write();
   /// Closes the datasets.
   void close();
   /// Cuts all datasets to what was written, in the closed file that one rank has opened anew; returns the
@@ -76,7 +75,6 @@ class FrameColumns {
   std::int64_t first_frame_;
   std::int64_t frames_held_;  ///< frames that can wait
   std::int64_t frames_added_ = 0, frames_written_ = 0;
-  bool wrote_collectively_ = false;
   std::vector<FrameTable> groups_;
   std::deque<GrowingTable> rows_;  ///< [groups]
   EventColumns events_;

@@ -8,8 +8,8 @@
 #include "io/file/output_target.h"
 #include "io/hdf5/commit_record.h"
 #include "io/hdf5/file_checksum.h"
+#include "io/hdf5/file_ranks.h"
 #include "io/hdf5/file_types.h"
-#include "io/hdf5/parallel_file.h"
 #include "io/hdf5/space_ahead.h"
 #include "io/run/frame_columns.h"
 #include "io/run/skeleton.h"
@@ -44,7 +44,6 @@ RunShape shape_of(const FileRanks& ranks, const RunSetup& setup) {
 class RunFile::Impl {
  public:
   Impl(const FileGroup& group, RunSetup setup);
-  ~Impl() { file_.release(); }  // closing it is collective
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -53,13 +52,15 @@ class RunFile::Impl {
   void secure() {
     core::require_invariant(open_, "the run's file was closed");
     flush();
+    require_in_place();
   }
   void close(bool complete, const std::string& state_hash, std::span<const WorldResult> results);
-  bool wrote_collectively() const { return columns_ && columns_->wrote_collectively(); }
 
  private:
   void make_skeleton();
   void flush();
+  /// Throws core::RunError if somebody has removed or replaced the file, which can still be closed.
+  void require_in_place();
   /// Root only, before the waiting rows are written.
   void reserve_ahead();
   /// Does `work` on every rank; an error on any rank closes the file on all and becomes the same RunError.
@@ -74,11 +75,10 @@ class RunFile::Impl {
   FileRanks ranks_;
   RunShape shape_;
   OutputTarget target_;  ///< root only
-  File file_;
+  WrittenFile file_;     ///< for values
   CommitRecord record_;  ///< root only
   SpaceAhead space_{target_};
   std::optional<FrameColumns> columns_;
-  PropertyList transfer_;
   double last_flush_s_ = 0;
   bool open_ = false;
 };
@@ -92,13 +92,18 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
     target_ = output_target(setup_.path, filetype, bytes);
   });
   try {
-    ranks_.together([this] { make_skeleton(); });
-    ranks_.together<core::InputError>([this] {
+    make_skeleton();
+    ranks_.together([this] {
       if (!ranks_.is_root()) return;
       record_ = CommitRecord(target_.temporary_path());
       store_fixed_checksum(record_.id());
-      target_.publish(setup_.optional.contacts ? ContactRows::spare_bytes(shape_) : 0);
     });
+    ranks_.together<core::InputError>([this] {
+      if (ranks_.is_root()) target_.publish(setup_.optional.contacts ? ContactRows::spare_bytes(shape_) : 0);
+    });
+  } catch (const core::RunError& error) {
+    close_all();
+    throw core::RunError("cannot create " + setup_.path + ": " + error.what());
   } catch (...) {
     close_all();
     throw;
@@ -109,11 +114,12 @@ RunFile::Impl::Impl(const FileGroup& group, RunSetup setup) : setup_(std::move(s
 }
 
 void RunFile::Impl::make_skeleton() {
-  file_ = ranks_.create(ranks_.broadcast(target_.temporary_path()));
-  transfer_ = collective_transfer();
-  write_skeleton(ranks_, file_.id(), setup_);
-  columns_.emplace(file_.id(), ranks_, setup_, shape_);
-  check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush");
+  const std::string path = ranks_.broadcast(target_.temporary_path());
+  io::make_skeleton(ranks_, path, setup_, shape_);
+  ranks_.together([&] { file_ = WrittenFile::open_values(path); });
+  fill_skeleton(ranks_, file_.id(), setup_);
+  ranks_.together([this] { columns_.emplace(file_.id(), ranks_, setup_, shape_); });
+  ranks_.together([this] { file_.sync(); });
 }
 
 template <class Work>
@@ -122,9 +128,7 @@ void RunFile::Impl::write_together(Work&& work) {
     ranks_.together(std::forward<Work>(work));
   } catch (const core::RunError& error) {
     close_all();
-    std::string shortage = ranks_.broadcast(ranks_.is_root() ? target_.shortage() : "");
-    if (!shortage.empty()) shortage += "; ";
-    throw core::RunError("cannot write " + setup_.path + ": " + shortage + error.what() +
+    throw core::RunError("cannot write " + setup_.path + ": " + error.what() +
                          "; the frames committed before are readable");
   }
 }
@@ -134,7 +138,15 @@ void RunFile::Impl::add(const stepping::FrameRecord& frame) {
   columns_->add(frame);
   const bool due = core::now_s() - last_flush_s_ >= setup_.flush_interval_s;
   // Root's clock decides for all; every rank knows whether the columns are full.
-  if (ranks_.broadcast(due) || columns_->full()) flush();
+  if (!ranks_.broadcast(due) && !columns_->full()) return;
+  flush();
+  require_in_place();
+}
+
+void RunFile::Impl::require_in_place() {
+  ranks_.together([this] {
+    if (ranks_.is_root()) target_.require_in_place();
+  });
 }
 
 void RunFile::Impl::add(const stepping::RunEvent& event) {
@@ -146,11 +158,13 @@ void RunFile::Impl::flush() {
   if (!columns_->empty()) {
     columns_->settle();
     write_together([this] {
-      if (ranks_.is_root()) reserve_ahead();
+      if (!ranks_.is_root()) return;
+      target_.require_whole();
+      reserve_ahead();
     });
     write_together([this] {
-      const std::string error = columns_->write(transfer_);
-      if (!error.empty()) throw core::RunError(error);
+      columns_->write();
+      file_.require_written();
     });
     // The data of all ranks are in the file before the number that declares them valid. They may still be on
     // their way to the disk: a kill does not lose them, and waiting would cost some percent of the run.
@@ -175,17 +189,15 @@ void RunFile::Impl::close(bool complete, const std::string& state_hash,
   if (!open_) return;
   flush();
   open_ = false;
-  write_together([this] { check(H5Fflush(file_.id(), H5F_SCOPE_GLOBAL), "H5Fflush"); });
   write_together([this] {
+    file_.sync();
     columns_->close();
-    if (!file_.close()) check(-1, "H5Fclose");
+    file_.close();
   });
   write_together([&] {
     if (ranks_.is_root()) finish(complete, state_hash, results);
   });
-  ranks_.together([this] {
-    if (ranks_.is_root()) target_.require_in_place();
-  });
+  require_in_place();
 }
 
 void RunFile::Impl::finish(bool complete, const std::string& state_hash,
@@ -193,18 +205,18 @@ void RunFile::Impl::finish(bool complete, const std::string& state_hash,
   if (!results.empty()) write_world_results(record_.id(), results);
   record_.finish(complete, state_hash, columns_->event_counts());
   store_end_checksum(record_.id());
-  if (!record_.close()) check(-1, "H5Fclose");
-  File file = open_alone(target_.open_path());
+  record_.close();
+  WrittenFile file = WrittenFile::open(target_.open_path());
   const std::vector<core::ByteRange> unused = columns_->cut(file.id());
-  if (!file.close()) check(-1, "H5Fclose");
+  file.close();
   target_.release(unused);
 }
 
 void RunFile::Impl::close_all() {
   open_ = false;
   if (columns_) columns_->close();
-  file_.close();
-  record_.close();
+  file_ = {};
+  record_ = {};
 }
 
 RunFile::RunFile(const FileGroup& group, RunSetup setup)
@@ -216,6 +228,5 @@ void RunFile::secure() { impl_->secure(); }
 void RunFile::close(bool complete, const std::string& state_hash, std::span<const WorldResult> results) {
   impl_->close(complete, state_hash, results);
 }
-bool RunFile::wrote_collectively() const { return impl_->wrote_collectively(); }
 
 }  // namespace pbmpi::io

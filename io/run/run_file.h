@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "io/hdf5/file_group.h"
+#include "io/hdf5/file_ranks.h"
 #include "io/setup/run_setup.h"
 #include "io/setup/world_results.h"
 #include "stepping/frame.h"
@@ -42,10 +42,6 @@ class RunFile final : public stepping::FrameObserver {
   /// closes. `complete` = all planned frames were simulated. `state_hash` and `results` ([num_worlds], or
   /// none where they are not known) matter on root only.
   void close(bool complete, const std::string& state_hash, std::span<const WorldResult> results = {});
-
-  /// Was every dataset of the last flush written by all ranks together, as HDF5 reports it on this rank
-  /// (H5Pget_mpio_actual_io_mode)? False before the first flush.
-  bool wrote_collectively() const;
 
  private:
   class Impl;

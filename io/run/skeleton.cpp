@@ -1,13 +1,16 @@
 #include "io/run/skeleton.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "core/utc.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/commit_record.h"
 #include "io/hdf5/file_checksum.h"
 #include "io/hdf5/file_types.h"
+#include "io/hdf5/written_file.h"
 #include "io/run/event_columns.h"
+#include "io/run/frame_columns.h"
 #include "io/setup/static_columns.h"
 #include "io/setup/world_result_rows.h"
 
@@ -53,13 +56,13 @@ void write_h5md(hid_t file, const RunSetup& setup) {
   write_boundary(box.id());
 }
 
-void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_root(hid_t file, const RunSetup& setup) {
   const auto root = owned<Group>(H5Gopen2(file, "/", H5P_DEFAULT), "H5Gopen(/)");
   write_attribute(root.id(), "filetype", std::string(filetype));
   write_version(root.id(), {layout_major, layout_minor});
   for (const Parameter& attribute : setup.attributes) write_attribute(root.id(), attribute);
   if (find(setup.attributes, "created") == nullptr) {
-    write_attribute(root.id(), "created", ranks.broadcast(core::utc_now()));
+    write_attribute(root.id(), "created", core::utc_now());
   }
   write_attribute(root.id(), "record_every", std::int64_t{setup.record_every});
   write_attribute(root.id(), "first_frame", setup.first_frame);
@@ -68,21 +71,37 @@ void write_root(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   create_commit_attributes(root.id(), events.id(), EventColumns::no_counts());
 }
 
-void write_parameters(const FileRanks& ranks, hid_t file, const std::vector<Parameter>& parameters) {
+void write_parameters(hid_t file, const std::vector<Parameter>& parameters) {
   const Group group = create_group(file, "/parameters");
-  for (const Parameter& parameter : parameters) {
-    create_scalar(group.id(), parameter.name, parameter, ranks.is_root());
-  }
+  for (const Parameter& parameter : parameters) create_scalar(group.id(), parameter.name, parameter, true);
 }
 
 }  // namespace
 
-void write_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
-  write_root(ranks, file, setup);
-  write_static_columns(ranks, file, setup);
-  create_world_results(file, setup.table.num_worlds());
-  write_h5md(file, setup);
-  write_parameters(ranks, file, setup.parameters);
+void make_skeleton(const FileRanks& ranks, const std::string& path, const RunSetup& setup,
+                   const RunShape& shape) {
+  WrittenFile file;
+  const auto on_root = [&](const std::function<void()>& work) {
+    ranks.together([&] {
+      if (ranks.is_root()) work();
+    });
+  };
+  on_root([&] {
+    file = WrittenFile::create(path);
+    write_root(file.id(), setup);
+  });
+  write_static_columns(ranks, {file.id(), true}, setup);
+  on_root([&] {
+    create_world_results(file.id(), setup.table.num_worlds());
+    write_h5md(file.id(), setup);
+    write_parameters(file.id(), setup.parameters);
+    FrameColumns::create(file.id(), shape);
+    file.close();
+  });
+}
+
+void fill_skeleton(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+  write_static_columns(ranks, {file, false}, setup);
 }
 
 }  // namespace pbmpi::io

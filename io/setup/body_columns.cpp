@@ -14,7 +14,7 @@ using stepping::LocalWorld;
 
 }  // namespace
 
-void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_bodies(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   std::vector<std::int64_t> id;
   std::vector<std::int32_t> world, local_body;
   std::vector<std::string> name, actor, kind, shape;
@@ -62,7 +62,7 @@ void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   }
 }
 
-void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_geoms(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   std::vector<std::int64_t> body;
   std::vector<std::int32_t> world;
   std::vector<std::string> actor, kind, shape;
@@ -96,7 +96,7 @@ void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   columns.numbers("restitution", restitution);
 }
 
-void write_pair_materials(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_pair_materials(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   std::vector<std::int32_t> world;
   std::vector<std::string> actor_a, actor_b;
   std::vector<double> mu, restitution;

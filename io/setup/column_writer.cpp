@@ -7,12 +7,8 @@
 
 namespace pbmpi::io {
 
-ColumnWriter::ColumnWriter(const FileRanks& ranks, hid_t file, std::string group, OwnRows rows)
-    : ranks_(ranks),
-      file_(file),
-      group_(std::move(group)),
-      rows_(std::move(rows)),
-      transfer_(collective_transfer()) {}
+ColumnWriter::ColumnWriter(const FileRanks& ranks, ColumnFile file, std::string group, OwnRows rows)
+    : ranks_(ranks), file_(file), group_(std::move(group)), rows_(std::move(rows)) {}
 
 void ColumnWriter::numbers(const std::string& name, const std::vector<double>& values,
                            const std::string& unit, const std::vector<hsize_t>& item) {
@@ -52,15 +48,23 @@ void ColumnWriter::write(const std::string& name, const Datatype& type, const vo
     dims.push_back(extent);
     local *= extent;
   }
-  const Dataset dataset = create_fixed(file_, group_ + "/" + name, type, dims, unit);
-  if (rows_.num_rows == 0) return;
-  const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
-  select_ranges(in_file, rows_.ranges);
-  const hsize_t length = std::max<hsize_t>(local, 1);
-  const auto in_memory = owned<Dataspace>(H5Screate_simple(1, &length, nullptr), "H5Screate_simple");
-  if (local == 0) check(H5Sselect_none(in_memory.id()), "H5Sselect_none");
-  check(H5Dwrite(dataset.id(), type.id(), in_memory.id(), in_file.id(), transfer_.id(), data),
-        "H5Dwrite(" + group_ + "/" + name + ")");
+  const std::string path = group_ + "/" + name;
+  if (file_.is_new) {
+    ranks_.together([&] {
+      if (ranks_.is_root()) create_fixed(file_.id, path, type, dims, unit);
+    });
+    return;
+  }
+  ranks_.together([&] {
+    if (local == 0) return;
+    const auto dataset =
+        owned<Dataset>(H5Dopen2(file_.id, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
+    const auto in_file = owned<Dataspace>(H5Dget_space(dataset.id()), "H5Dget_space");
+    select_ranges(in_file, rows_.ranges);
+    const auto in_memory = owned<Dataspace>(H5Screate_simple(1, &local, nullptr), "H5Screate_simple");
+    check(H5Dwrite(dataset.id(), type.id(), in_memory.id(), in_file.id(), H5P_DEFAULT, data),
+          "H5Dwrite(" + path + ")");
+  });
 }
 
 void append(std::vector<double>& values, const core::Vec3& v) {

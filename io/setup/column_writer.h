@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "core/vector.h"
+#include "io/hdf5/file_ranks.h"
 #include "io/hdf5/hdf5_handle.h"
-#include "io/hdf5/parallel_file.h"
 #include "io/hdf5/rows.h"
 
 namespace pbmpi::io {
@@ -20,11 +20,19 @@ struct OwnRows {
   hsize_t num_rows = 0;  ///< of all ranks
 };
 
-/// Writes columns of one group: this rank has the rows of OwnRows, in order. Every call is collective.
+/// The file in which columns are made, and then filled. `is_new`: root alone has it open, and makes the
+/// datasets; the other ranks have no `id`. Otherwise all ranks have it open, and write their rows.
+struct ColumnFile {
+  hid_t id;
+  bool is_new;
+};
+
+/// Makes or fills columns of one group: this rank has the rows of OwnRows, in order. Every call is
+/// collective, and throws the same core::RunError on every rank.
 class ColumnWriter {
  public:
   /// `ranks` is borrowed.
-  ColumnWriter(const FileRanks& ranks, hid_t file, std::string group, OwnRows rows);
+  ColumnWriter(const FileRanks& ranks, ColumnFile file, std::string group, OwnRows rows);
 
   /// `item`: extents of a value; {} = one number.
   void numbers(const std::string& name, const std::vector<double>& values, const std::string& unit = "",
@@ -40,10 +48,9 @@ class ColumnWriter {
              const std::vector<hsize_t>& item, const std::string& unit);
 
   const FileRanks& ranks_;
-  hid_t file_;
+  ColumnFile file_;
   std::string group_;
   OwnRows rows_;
-  PropertyList transfer_;
 };
 
 /// Appends the numbers of a vector, of a quaternion (w, x, y, z), of a matrix row by row.

@@ -87,7 +87,7 @@ constexpr std::array<WorldNumbers, 9> world_numbers = {
 
 }  // namespace
 
-void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_joints(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   const auto global = [&](const LocalWorld& local, int body) {
     return body == model::no_body ? -1 : setup.table.body_offset[local.id] + body;
   };
@@ -121,7 +121,7 @@ void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
   }
 }
 
-void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_connectivity(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   const auto holds_two = [](const model::Joint& joint) { return joint.body_b != model::no_body; };
   std::vector<std::int64_t> pairs;
   for (const LocalWorld& local : setup.worlds) {
@@ -135,11 +135,15 @@ void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setu
     return static_cast<std::size_t>(std::count_if(m.joints.begin(), m.joints.end(), holds_two));
   });
   ColumnWriter(ranks, file, "/connectivity", own).numbers("joints", pairs, {2});
-  const auto dataset = owned<Dataset>(H5Dopen2(file, "/connectivity/joints", H5P_DEFAULT), "H5Dopen");
-  write_reference(dataset.id(), "particles_group", file, "/particles/bodies");
+  if (!file.is_new) return;
+  ranks.together([&] {
+    if (!ranks.is_root()) return;
+    const auto dataset = owned<Dataset>(H5Dopen2(file.id, "/connectivity/joints", H5P_DEFAULT), "H5Dopen");
+    write_reference(dataset.id(), "particles_group", file.id, "/particles/bodies");
+  });
 }
 
-void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_worlds(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   ColumnWriter columns(ranks, file, "/worlds",
                        rows_in_world_order(ranks, setup, [](const auto&) { return std::size_t{1}; }));
   std::vector<std::int64_t> id;

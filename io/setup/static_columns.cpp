@@ -7,7 +7,7 @@
 namespace pbmpi::io {
 namespace {
 
-void write_ranks(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_ranks(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   const auto rank = static_cast<std::size_t>(ranks.rank());
   const OwnRows own{{{static_cast<hsize_t>(ranks.rank()), 1}}, static_cast<hsize_t>(ranks.size())};
   ColumnWriter columns(ranks, file, "/ranks", own);
@@ -45,7 +45,7 @@ std::int64_t estimate_static_bytes(const RunShape& shape) {
          shape.num_worlds * (world_bytes + bytes_of_a_world_result());
 }
 
-void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_static_columns(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   write_bodies(ranks, file, setup);
   write_geoms(ranks, file, setup);
   write_pair_materials(ranks, file, setup);

@@ -11,23 +11,24 @@
 
 namespace pbmpi::io {
 
-/// Makes and writes /particles/bodies (without the moving part), /geoms, /pair_materials, /joints,
-/// /connectivity, /worlds, /world_parameters and /ranks. Collective.
-void write_static_columns(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+/// Makes, or fills, /particles/bodies (without the moving part), /geoms, /pair_materials, /joints,
+/// /connectivity, /worlds, /world_parameters and /ranks. Collective; throws the same core::RunError on every
+/// rank.
+void write_static_columns(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 
 /// Bytes of the static columns, with names of usual length.
 std::int64_t estimate_static_bytes(const RunShape& shape);
 
 /// Parts of write_static_columns(), in its order.
-void write_bodies(const FileRanks& ranks, hid_t file, const RunSetup& setup);
-void write_geoms(const FileRanks& ranks, hid_t file, const RunSetup& setup);
-void write_pair_materials(const FileRanks& ranks, hid_t file, const RunSetup& setup);
-void write_joints(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_bodies(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
+void write_geoms(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
+void write_pair_materials(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
+void write_joints(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 /// Writes /connectivity/joints in the form of H5MD: the joints between two bodies.
-void write_connectivity(const FileRanks& ranks, hid_t file, const RunSetup& setup);
-void write_worlds(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_connectivity(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
+void write_worlds(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 /// Writes /world_parameters, if worlds have some.
-void write_world_parameters(const FileRanks& ranks, hid_t file, const RunSetup& setup);
+void write_world_parameters(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 
 /// [num_worlds + 1] where the items of each world begin; `count` gives their number from its model.
 /// Collective.

@@ -5,7 +5,7 @@
 
 namespace pbmpi::io {
 
-void write_world_parameters(const FileRanks& ranks, hid_t file, const RunSetup& setup) {
+void write_world_parameters(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   if (setup.world_parameters.empty()) return;
   ColumnWriter columns(ranks, file, "/world_parameters",
                        rows_in_world_order(ranks, setup, [](const auto&) { return std::size_t{1}; }));

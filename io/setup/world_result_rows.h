@@ -10,7 +10,7 @@
 
 namespace pbmpi::io {
 
-/// Creates the columns, [num_worlds] each, with no row written yet. Part of the skeleton, collective.
+/// Creates the columns, [num_worlds] each, with no row written yet. Part of the skeleton.
 void create_world_results(hid_t file, int num_worlds);
 
 /// Writes all rows, serially, and sets the group's attribute `num_worlds`, which marks them as written.

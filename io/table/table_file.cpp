@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <fstream>
 
 #include "core/error.h"
 #include "core/system/input_file.h"
@@ -74,14 +73,6 @@ void write_content(hid_t file, const std::string& filetype, const std::array<std
 /// Minor version of the layouts from which on files have a seal.
 constexpr std::int64_t sealed_since = 3;
 
-void write_all(const std::string& path, const std::string& filetype, const TableFile& content) {
-  const std::vector<std::byte> image = table_image(filetype, study_version, content);
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file.write(reinterpret_cast<const char*>(image.data()), std::ssize(image));
-  file.close();
-  if (!file) throw core::RunError("not all of its bytes; is the disk full?");
-}
-
 TableColumn read_column(hid_t file, const std::string& table, const std::string& name) {
   const std::string path = "/" + table + "/" + name;
   const auto dataset = owned<Dataset>(H5Dopen2(file, path.c_str(), H5P_DEFAULT), "H5Dopen(" + path + ")");
@@ -143,23 +134,13 @@ void TableFile::throw_type(const std::string& table, const std::string& name) {
                          " has another type than expected; use the pbmpi that wrote it");
 }
 
-struct TableWriter::Impl {
-  OutputTarget target;
-};
-
 TableWriter::TableWriter(const std::string& path) {
   prepare_hdf5();
-  impl_ = std::make_unique<Impl>(Impl{output_target(path, study_filetype, table_bytes)});
+  lock_ = output_target(path, study_filetype, table_bytes).take_lock();
 }
-TableWriter::~TableWriter() = default;
 
 void TableWriter::write(const std::string& filetype, const TableFile& file) {
-  try {
-    write_all(impl_->target.temporary_path(), filetype, file);
-  } catch (const core::RunError& error) {
-    throw core::RunError("cannot write " + impl_->target.path() + ": " + error.what());
-  }
-  impl_->target.publish();
+  replace_file(lock_, table_image(filetype, study_version, file));
 }
 
 std::vector<std::byte> table_image(const std::string& filetype, const std::array<std::int64_t, 2>& version,

@@ -51,16 +51,12 @@ class TableWriter {
  public:
   /// Throws core::InputError if the file cannot be created.
   explicit TableWriter(const std::string& path);
-  ~TableWriter();
-  TableWriter(const TableWriter&) = delete;
-  TableWriter& operator=(const TableWriter&) = delete;
 
   /// Throws core::RunError if the file cannot be written.
   void write(const std::string& filetype, const TableFile& file);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  OutputLock lock_;
 };
 
 /// The attribute filetype of all files of pbstudy, and the major and minor version of their layout.

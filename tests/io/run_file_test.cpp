@@ -239,15 +239,6 @@ TEST(RunFile, of_a_run_that_goes_on_has_its_own_rows_for_frames_that_keep_their_
   EXPECT_EQ(run.position[0][0].x(), sample_position(0, 0, 4, 0));
 }
 
-TEST(RunFile, writes_through_collective_mpi_io) {
-  const SharedFolder folder(world());
-  const Sample sample = sample_on(world());
-  const auto file = begin_run(world(), sample, folder.file("run.h5"), 3);
-  EXPECT_FALSE(file->wrote_collectively()) << "nothing was flushed so far";
-  file->close(true, "");
-  EXPECT_TRUE(file->wrote_collectively());
-}
-
 TEST(RunFile, cuts_the_datasets_of_a_run_that_ended_early) {
   const SharedFolder folder(world());
   Sample sample = sample_on(world());

@@ -1,5 +1,7 @@
 #include "app/pbmpi/checkpoint_keeper.h"
 
+#include <fcntl.h>
+
 #include <filesystem>
 #include <utility>
 
@@ -17,7 +19,16 @@ void CheckpointKeeper::reserve(std::int64_t bytes, bool asked) {
   }
 }
 
+void CheckpointKeeper::notice_loss() {
+  if (last_.empty() || written_.is_at(path_)) return;
+  *warnings_ << "pbmpi: warning: the checkpoint " << path_ << " was removed or replaced by somebody"
+             << std::endl;
+  written_ = {};
+  last_.clear();
+}
+
 std::string CheckpointKeeper::keep(mpi::Snapshot snapshot) {
+  notice_loss();
   about_.created = core::utc_now();
   about_.frames = snapshot.frames;
   about_.steps = snapshot.steps;
@@ -27,6 +38,7 @@ std::string CheckpointKeeper::keep(mpi::Snapshot snapshot) {
     if (!lock_.is_held()) lock_ = io::lock_checkpoint(path_, 1);
     const std::int64_t bytes = io::write_checkpoint(lock_, about_);
     about_.worlds.clear();
+    written_ = core::Descriptor(path_, O_RDONLY);
     last_ = path_ + " (after " + std::to_string(snapshot.frames) + " frames)";
     return std::filesystem::path(path_).filename().string() + " holds the run after step " +
            std::to_string(snapshot.steps) + " (" + std::to_string((bytes + 1023) / 1024) + " KiB)";

@@ -4,6 +4,7 @@
 #include <ostream>
 #include <string>
 
+#include "core/system/descriptor.h"
 #include "io/run/checkpoint_file.h"
 #include "mpi/frame/checkpoint_schedule.h"
 
@@ -13,7 +14,7 @@ namespace pbmpi::app {
 class CheckpointKeeper final : public mpi::SnapshotKeeper {
  public:
   /// `about`: the file's content except a snapshot's part. `warnings`, borrowed, is told of a file that could
-  /// not be written while the run goes on.
+  /// not be written while the run goes on, and of one that somebody has removed or replaced.
   CheckpointKeeper(std::string path, io::Checkpoint about, std::ostream& warnings)
       : path_(std::move(path)), about_(std::move(about)), warnings_(&warnings) {}
 
@@ -24,15 +25,21 @@ class CheckpointKeeper final : public mpi::SnapshotKeeper {
 
   std::string keep(mpi::Snapshot snapshot) override;
 
-  /// "FILE (after 12 frames)" of the last file written, or nothing.
-  const std::string& last() const { return last_; }
+  /// "FILE (after 12 frames)" of the last file written, or nothing if it is not there.
+  const std::string& last() {
+    notice_loss();
+    return last_;
+  }
 
  private:
+  void notice_loss();
+
   std::string path_;
   io::OutputLock lock_;
   io::Checkpoint about_;
   std::ostream* warnings_;
   std::string last_;
+  core::Descriptor written_;  ///< the last file
 };
 
 }  // namespace pbmpi::app

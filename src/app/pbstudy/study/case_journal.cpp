@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iostream>
 #include <string_view>
 
 #include "core/error.h"
@@ -91,7 +92,7 @@ std::string read_journal(const std::string& path, Word key) {
 }  // namespace
 
 CaseJournal::CaseJournal(const std::string& output, int rank, std::uint64_t key)
-    : path_(prefix_of(output) + std::to_string(rank)), file_(path_, O_RDWR | O_CREAT) {
+    : path_(prefix_of(output) + std::to_string(rank)), key_(key), file_(path_, O_RDWR | O_CREAT) {
   core::require_input(file_.is_open(), path_ + ": cannot be created: " + core::reason_of(errno) +
                                            "; it keeps the study's cases as they are done");
   // Removes a record that a kill cut off, so that what is appended can be read.
@@ -101,7 +102,7 @@ CaseJournal::CaseJournal(const std::string& output, int rank, std::uint64_t key)
   int error = ftruncate(file_.get(), static_cast<off_t>(length)) == 0 ? 0 : errno;
   if (error == 0 && lseek(file_.get(), 0, SEEK_END) < 0) error = errno;
   if (error == 0 && length == 0) error = file_.write(bytes_of_words(head_of(key)));
-  core::require_input(error == 0, path_ + ": cannot be written: " + core::reason_of(error));
+  if (error != 0) throw core::RunError(path_ + ": cannot be written: " + core::reason_of(error));
 }
 
 void CaseJournal::add(std::int64_t index, std::span<const std::byte> outcome) {
@@ -109,9 +110,22 @@ void CaseJournal::add(std::int64_t index, std::span<const std::byte> outcome) {
   std::vector<std::byte> record(sizeof head + outcome.size());
   std::memcpy(record.data(), head.data(), sizeof head);
   if (!outcome.empty()) std::memcpy(record.data() + sizeof head, outcome.data(), outcome.size());
-  int error = file_.write(record);
-  if (error == 0 && fdatasync(file_.get()) != 0) error = errno;
+  int error = file_.is_at(path_) ? 0 : begin_anew();
+  if (error == 0) error = append(record);
   if (error != 0) throw core::RunError(path_ + ": cannot be written: " + core::reason_of(error));
+}
+
+int CaseJournal::begin_anew() {
+  file_ = core::Descriptor(path_, O_RDWR | O_CREAT | O_TRUNC);
+  if (!file_.is_open()) return errno;
+  std::cerr << "pbstudy: warning: " << path_
+            << " was removed by somebody; --resume would do its earlier cases again" << std::endl;
+  return file_.write(bytes_of_words(head_of(key_)));
+}
+
+int CaseJournal::append(std::span<const std::byte> record) {
+  const int error = file_.write(record);
+  return error == 0 && fdatasync(file_.get()) != 0 ? errno : error;
 }
 
 std::map<std::int64_t, std::vector<std::byte>> read_case_journals(const std::string& output,

@@ -18,14 +18,20 @@ namespace pbmpi::app {
 class CaseJournal {
  public:
   /// Opens this rank's journal, to append to it. `key`: hash of everything that the outcomes depend on.
-  /// Throws core::InputError if the journal cannot be written.
+  /// Throws core::InputError if the journal cannot be created, core::RunError if it cannot be written.
   CaseJournal(const std::string& output, int rank, std::uint64_t key);
 
-  /// Waits until the outcome is on the disk. Throws core::RunError.
+  /// Waits until the outcome is on the disk. A journal that somebody has removed is begun anew, with a
+  /// warning. Throws core::RunError.
   void add(std::int64_t index, std::span<const std::byte> outcome);
 
  private:
+  /// Both return 0, or the errno of the failure.
+  int begin_anew();
+  int append(std::span<const std::byte> record);
+
   std::string path_;
+  std::uint64_t key_;
   core::Descriptor file_;
 };
 

@@ -19,6 +19,12 @@ namespace pbmpi::app {
 
 using io::Parameter;
 
+namespace {
+
+constexpr int failure_tag = 1;
+
+}  // namespace
+
 StudyRunner::StudyRunner(const mpi::Communicator& comm, std::string name, const StudyOptions& options)
     : comm_(comm), name_(std::move(name)), options_(options), start_s_(core::now_s()) {
   for (const std::string& scene : options.scenes)
@@ -91,7 +97,16 @@ void StudyRunner::open_journal(std::uint64_t layout, std::size_t num_cases) {
 }
 
 bool StudyRunner::is_to_stop() const {
+  for (int rank = 0; rank < comm_.size(); ++rank) {
+    if (rank != comm_.rank() && failures_.has(rank, failure_tag)) return true;
+  }
   return stop_.is_set() || (options_.max_time_s && core::now_s() - start_s_ >= *options_.max_time_s);
+}
+
+void StudyRunner::tell_of_failure() {
+  for (int rank = 0; rank < comm_.size(); ++rank) {
+    if (rank != comm_.rank()) failures_.post({}, rank, failure_tag);
+  }
 }
 
 void StudyRunner::require_all_done(std::size_t num_left_out) const {

@@ -23,6 +23,7 @@
 #include "mpi/balance/partition.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
+#include "mpi/comm/mail.h"
 
 namespace pbmpi::app {
 
@@ -63,7 +64,8 @@ class StudyRunner {
   /// Result; all ranks get the outcomes of all cases, in their order. A case has a `scene`. Cases are dealt
   /// out over the ranks by cost_of(case), in any unit, the dearest first. Outcomes are kept in a journal
   /// beside the output until write(); with --resume, cases already in it are not run again. If `run_case`
-  /// throws on one rank, all ranks throw; StudyStopped if a rank was asked to stop, or the time is up.
+  /// throws on one rank, or it cannot write its journal, all ranks throw after the cases at hand;
+  /// StudyStopped if a rank was asked to stop, or the time is up.
   template <class Result, class... Rows, class Case, class CostOf, class RunCase>
   CaseOutcomes<Result, Rows...> run(const std::vector<Case>& cases, CostOf&& cost_of, RunCase&& run_case);
 
@@ -79,10 +81,13 @@ class StudyRunner {
   void open_journal(std::uint64_t layout, std::size_t num_cases);
   std::uint64_t key_of(std::uint64_t layout) const;
   bool is_to_stop() const;
+  /// Lets the other ranks stop after their cases at hand: this one has failed.
+  void tell_of_failure();
   /// Collective. Throws StudyStopped if any rank left out cases.
   void require_all_done(std::size_t num_left_out) const;
 
   const mpi::Communicator& comm_;
+  mpi::Mail failures_{comm_};  ///< an empty message from each rank that has failed
   std::string name_;
   const StudyOptions& options_;
   std::vector<StudyScene> scenes_;
@@ -119,10 +124,15 @@ CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, C
         ++num_left_out;
         continue;
       }
-      CaseOutcome<Result, Rows...> outcome{run_case(i)};
-      outcome.set_index(static_cast<int>(i));
-      journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
-      outcomes.append(outcome);
+      try {
+        CaseOutcome<Result, Rows...> outcome{run_case(i)};
+        outcome.set_index(static_cast<int>(i));
+        journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
+        outcomes.append(outcome);
+      } catch (...) {
+        tell_of_failure();
+        throw;
+      }
       case_done(cases[i].scene);
     }
     return outcomes;

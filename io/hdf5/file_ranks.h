@@ -1,4 +1,4 @@
-/// The ranks that write one file together: how they open it, and how they agree on errors.
+/// The ranks that write one file together: how they exchange rows, and agree on errors.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,15 @@
 #include <vector>
 
 #include "core/error.h"
-#include "io/hdf5/file_group.h"
-#include "io/hdf5/hdf5_handle.h"
 
 namespace pbmpi::io {
+
+/// This rank's place in the group, and the communicator with which the file is opened.
+struct FileGroup {
+  int fortran_communicator = 0;  ///< MPI_Comm_c2f of the ranks that write together
+  int rank = 0;
+  int num_ranks = 1;
+};
 
 /// Borrows the communicator. Every call is collective, except rank(), size() and is_root().
 class FileRanks {
@@ -48,24 +53,10 @@ class FileRanks {
     if (const std::string first = first_error(error); !first.empty()) throw Error(first);
   }
 
-  /// Creates `path` (truncated if it exists) for parallel writing.
-  File create(const std::string& path) const;
-
  private:
   int fortran_communicator_;
   int rank_;
   int size_;
 };
-
-/// Opens a file for writing by this rank alone. Uses MPI-IO here too: unlike the serial driver it holds no
-/// metadata back, so a kill between two writes never leaves a superblock that lags behind the length of the
-/// file.
-File open_alone(const std::string& path);
-
-/// Transfer properties of a collective write: all ranks and all chunks of a call in one operation.
-PropertyList collective_transfer();
-
-/// Was the last write with `transfer` collective on this rank, or did HDF5 fall back to one rank at a time?
-bool was_collective(const PropertyList& transfer);
 
 }  // namespace pbmpi::io

@@ -1,4 +1,4 @@
-#include "io/hdf5/parallel_file.h"
+#include "io/hdf5/file_ranks.h"
 
 #include <mpi.h>
 
@@ -23,27 +23,6 @@ int to_count(std::size_t bytes) {
   if (bytes > std::numeric_limits<int>::max())
     throw core::RunError("more than 2 GiB in one message between ranks");
   return static_cast<int>(bytes);
-}
-
-/// Root alone writes metadata, and no rank drops a cache entry that another rank keeps: HDF5 broadcasts
-/// entries from root in collective calls, and hangs if ranks disagree on which entries they need.
-void set_metadata_cache(const PropertyList& access) {
-  H5AC_cache_config_t cache{};
-  cache.version = H5AC__CURR_CACHE_CONFIG_VERSION;
-  check(H5Pget_mdc_config(access.id(), &cache), "H5Pget_mdc_config");
-  cache.evictions_enabled = 0;
-  cache.incr_mode = H5C_incr__off;
-  cache.flash_incr_mode = H5C_flash_incr__off;
-  cache.decr_mode = H5C_decr__off;
-  cache.metadata_write_strategy = H5AC_METADATA_WRITE_STRATEGY__PROCESS_0_ONLY;
-  check(H5Pset_mdc_config(access.id(), &cache), "H5Pset_mdc_config");
-}
-
-PropertyList access_through(MPI_Comm comm) {
-  auto access = owned<PropertyList>(H5Pcreate(H5P_FILE_ACCESS), "H5Pcreate");
-  check(H5Pset_fapl_mpio(access.id(), comm, MPI_INFO_NULL), "H5Pset_fapl_mpio");
-  set_metadata_cache(access);
-  return access;
 }
 
 }  // namespace
@@ -115,40 +94,6 @@ std::string FileRanks::first_error(const std::string& error) const {
   check_mpi(MPI_Bcast(text.data(), static_cast<int>(text.size()), MPI_CHAR, failed, comm), "MPI_Bcast",
             rank_);
   return failed == root ? text.data() : text.data() + (" (rank " + std::to_string(failed) + ")");
-}
-
-File FileRanks::create(const std::string& path) const {
-  const PropertyList access = access_through(MPI_Comm_f2c(fortran_communicator_));
-  // The oldest format, chosen on purpose: its superblock has no "open for writing" mark, which after a kill
-  // would keep readers out until someone runs h5clear.
-  check(H5Pset_libver_bounds(access.id(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), "H5Pset_libver_bounds");
-  constexpr hsize_t metadata_block =
-      hsize_t{64} * 1024;  // few, large metadata writes instead of many of 2 KiB
-  check(H5Pset_meta_block_size(access.id(), metadata_block), "H5Pset_meta_block_size");
-  return owned<File>(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), "H5Fcreate");
-}
-
-File open_alone(const std::string& path) {
-  const PropertyList access = access_through(MPI_COMM_SELF);
-  return owned<File>(H5Fopen(path.c_str(), H5F_ACC_RDWR, access.id()), "H5Fopen");
-}
-
-PropertyList collective_transfer() {
-  auto transfer = owned<PropertyList>(H5Pcreate(H5P_DATASET_XFER), "H5Pcreate");
-  check(H5Pset_dxpl_mpio(transfer.id(), H5FD_MPIO_COLLECTIVE), "H5Pset_dxpl_mpio");
-  // One operation for all chunks: if it fails on one rank, no other rank is left in a loop over chunks.
-  check(H5Pset_dxpl_mpio_chunk_opt(transfer.id(), H5FD_MPIO_CHUNK_ONE_IO), "H5Pset_dxpl_mpio_chunk_opt");
-  // Each rank writes its own bytes: the collective buffering of Open MPI 4.1 (OMPIO, fcoll vulcan) drops the
-  // errors of its aggregators, so a full disk would look like success.
-  check(H5Pset_dxpl_mpio_collective_opt(transfer.id(), H5FD_MPIO_INDIVIDUAL_IO),
-        "H5Pset_dxpl_mpio_collective_opt");
-  return transfer;
-}
-
-bool was_collective(const PropertyList& transfer) {
-  H5D_mpio_actual_io_mode_t mode = H5D_MPIO_NO_COLLECTIVE;
-  check(H5Pget_mpio_actual_io_mode(transfer.id(), &mode), "H5Pget_mpio_actual_io_mode");
-  return mode == H5D_MPIO_CHUNK_COLLECTIVE || mode == H5D_MPIO_CONTIGUOUS_COLLECTIVE;
 }
 
 }  // namespace pbmpi::io
