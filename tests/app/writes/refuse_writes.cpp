@@ -1,7 +1,7 @@
 // Preloaded, it is a file system that goes on refusing writes, as one over its quota does, or whose server
 // has died: from the REFUSE_FROM-th call on that writes to, resizes or flushes a file below REFUSE_UNDER,
-// each fails with EDQUOT. REFUSE_RANK: on this rank alone. At its end each process appends the number of its
-// calls to REFUSE_COUNTS.
+// each fails with EDQUOT. REFUSE_RANK: on this rank alone. Each such call appends its number
+// to REFUSE_COUNTS.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/uio.h>
