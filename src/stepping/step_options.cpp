@@ -6,7 +6,6 @@
 #include <type_traits>
 
 #include "core/error.h"
-#include "core/quantity.h"
 #include "stepping/names.h"
 #include "stepping/option_values.h"
 
@@ -17,8 +16,6 @@ using Settings = StepperSettings;
 using Traits = StepperTraits;
 
 bool at_least_1(double value) { return value >= 1; }
-bool is_length(double value) { return std::isfinite(value) && value > 0; }
-bool is_magnitude(double value) { return std::isfinite(value) && value >= 0; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 
 constexpr std::array<StepOption, 10> options = {{
@@ -43,9 +40,8 @@ constexpr std::array<StepOption, 10> options = {{
     {.name = "dt",
      .member = &Settings::dt_s,
      .placeholder = "SECONDS",
-     .meaning = "length of a step [s]; default: the scene's, 0.01",
-     .allows = is_length,
-     .limit = "a step must be finite and above 0 s",
+     .meaning = "length of a step, e.g. 10ms (us, ms, s); default: the scene's, 0.01 s",
+     .measure = &core::step_time,
      .unit = "s"},
     {.name = "iterations",
      .member = &Settings::iterations,
@@ -70,8 +66,7 @@ constexpr std::array<StepOption, 10> options = {{
          "sor: an island in which nothing moves farther than this in a step gets one substep, e.g. 0.01mm; "
          "0: none does; default: 0",
      .needs = &Traits::has_substeps,
-     .allows = is_magnitude,
-     .limit = "a tolerance is a length, e.g. 0.1mm, or 0",
+     .measure = &core::tolerance,
      .in_short = "tolerance * m",
      .unit = "m"},
     {.name = "precision",
@@ -125,9 +120,7 @@ SorLaw parse(std::string_view text, const std::string& what, const StepOption&, 
 template <class Number>
 requires std::is_arithmetic_v<Number> Number parse(std::string_view text, const std::string& what,
                                                    const StepOption& option, Number) {
-  if (option.unit == std::string_view("m")) {
-    if (const auto length = core::quantity(text, core::lengths())) return static_cast<Number>(*length);
-  }
+  if (option.measure != nullptr) return static_cast<Number>(core::read_quantity(text, what, *option.measure));
   const auto value = read_number<Number>(text, what);
   core::require_input(option.allows == nullptr || option.allows(static_cast<double>(value)),
                       what + " " + std::string(text) + ": " + std::string(option.limit));
@@ -184,6 +177,13 @@ std::string text_of(const StepOption& option, const StepperSettings& settings) {
           return written(value);
       },
       option.member);
+}
+
+std::string given_text(const StepOption& option, const StepperSettings& settings) {
+  return option.measure == nullptr
+             ? text_of(option, settings)
+             : core::quantity_text(settings.*std::get<double StepperSettings::*>(option.member),
+                                   *option.measure);
 }
 
 bool is_default(const StepOption& option, const StepperSettings& settings) {

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <variant>
 
+#include "core/quantity.h"
 #include "stepping/stepper.h"
 #include "stepping/stepper_traits.h"
 
@@ -30,9 +31,10 @@ struct StepOption {
   std::string_view shown_default =
       {};  ///< applied and shown by --help; empty: the scene's or StepperSettings'
 
-  bool StepperTraits::*needs = nullptr;  ///< the option is for steppers with this trait; null: for all
-  bool (*allows)(double) = nullptr;      ///< which numbers are valid; null: all
-  std::string_view limit = {};           ///< what allows() requires, for messages
+  bool StepperTraits::*needs = nullptr;    ///< the option is for steppers with this trait; null: for all
+  bool (*allows)(double) = nullptr;        ///< which numbers are valid; null: all
+  std::string_view limit = {};             ///< what allows() requires, for messages
+  const core::Measure* measure = nullptr;  ///< of a quantity with a unit; null: a bare number
 
   bool is_physics = true;  ///< affects the bits of a result: a resumed run must keep it
   bool in_studies = true;  ///< part of pbstudy's settings: a column of the file, a line of a written config
@@ -53,8 +55,10 @@ inline std::string file_name(const StepOption& option) { return file_name(option
 /// Does this kind of stepper use the option?
 bool fits(const StepOption& option, StepperKind kind);
 
-/// The value as text that set() reads back bit for bit.
+/// The value as text, without a unit.
 std::string text_of(const StepOption& option, const StepperSettings& settings);
+/// The value as text that set() reads back bit for bit.
+std::string given_text(const StepOption& option, const StepperSettings& settings);
 StepValue value_of(const StepOption& option, const StepperSettings& settings);
 /// Does the option have the value of default_settings() of this stepper and law? That of the law itself is
 /// Law::soft.

@@ -8,7 +8,7 @@ from reports import map_page, page
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse
 from reports.document import MARKDOWN, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study
-from reports.words import number, plural
+from reports.words import NO_NUMBER, plural
 
 COMMAND = Command("stability", "Shows which settings hold the hard cases: the file of pbstudy stability. The word stability may be left "
                   "out.", "stability.h5 [options]", page="a map of cases and settings; a click on a field shows its curves and its replay",
@@ -114,9 +114,14 @@ def decided_text(row):
     return f"{row.decided_by} {with_unit(row.value, row.value_unit)}{at}"
 
 
+def bound_text(bound, row):
+    """A bound of what decides, with its unit; "-" where there is none."""
+    return with_unit(bound, row.value_unit) if math.isfinite(bound) else NO_NUMBER
+
+
 RESULT = (Column("setting", lambda row: row.setting), Column("verdict", lambda row: row.verdict),
-          Column("right up to", lambda row: number(row.limit_right, ".3g")),
-          Column("broken beyond", lambda row: number(row.limit_broken, ".3g")),
+          Column("right up to", lambda row: bound_text(row.limit_right, row)),
+          Column("broken beyond", lambda row: bound_text(row.limit_broken, row)),
           Column("decided by", lambda row: decided_text(row) or row.decided_by))
 
 
@@ -167,7 +172,7 @@ def severity(row):
 def detail(row):
     if row.verdict == NOT_APPLICABLE:
         return row.decided_by
-    return (f"{decided_text(row)}; right up to {row.limit_right:.3g}, broken beyond {row.limit_broken:.3g}. {row.row_visits:.0f} row "
+    return (f"{decided_text(row)}; right up to {bound_text(row.limit_right, row)}, broken beyond {bound_text(row.limit_broken, row)}. {row.row_visits:.0f} row "
             f"visits and {1e6 * row.step_time:.3g} us of processor time a step.")
 
 

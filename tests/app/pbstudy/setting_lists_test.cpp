@@ -55,6 +55,20 @@ TEST(SettingLists, a_law_brings_its_own_sweeps_and_the_soft_one_keeps_them) {
   EXPECT_EQ(all[2].iterations, 1);
 }
 
+TEST(SettingLists, refuse_a_value_that_stands_there_twice_in_whatever_unit) {
+  constexpr VariedOption dt = {"dt", "", ""};
+  boost::program_options::options_description description;
+  add_setting_list(dt, description);
+  const auto read = [&](const std::vector<std::string>& args) {
+    boost::program_options::variables_map values;
+    store(boost::program_options::command_line_parser(args).options(description).run(), values);
+    return setting_list(dt, values).values;
+  };
+  EXPECT_EQ(read({"--dt", "10ms", "0.005"}), (std::vector<std::string>{"0.01", "0.005"}));
+  EXPECT_THROW(read({"--dt", "10ms", "0.01"}), core::InputError);
+  EXPECT_THROW(read({"--dt", "0.01", "0.01"}), core::InputError);
+}
+
 TEST(SettingLists, a_list_without_values_leaves_the_base_as_it_is) {
   const auto all = crossed({list_of_values("dt", {})});
   ASSERT_EQ(all.size(), 1u);

@@ -85,7 +85,7 @@ class Map(unittest.TestCase):
     def test_text_and_json_have_the_limits_or_say_why_there_are_none(self):
         report = stability.report_of(self.study, self.found)
         text = document.text(report)
-        self.assertRegex(text, r"sor +degraded +0.01 +0.1 +drift 12.3 mm\n")
+        self.assertRegex(text, r"sor +degraded +10 mm +100 mm +drift 12.3 mm\n")
         self.assertRegex(text, r"sor +n/a +- +- +left out by --most-work\n")
         cell = json.loads(document.json(report))["cases"][1]["results"][1]
         self.assertEqual((cell["verdict"], cell["value"], cell["right_up_to"]), ("n/a", None, None))
@@ -103,7 +103,7 @@ class Map(unittest.TestCase):
         self.assertEqual(floats(replay["orientation"]), [1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0])
         self.assertEqual(list(base64.b64decode(replay["geoms"]["shape"])), [0, 1])
         self.assertEqual((replay["shape_names"], replay["kind_names"]), (["plane", "box"], ["ground", "prop"]))
-        self.assertIn("1234 row visits and 2.5 us", field["detail"])
+        self.assertIn("right up to 10 mm, broken beyond 100 mm. 1234 row visits and 2.5 us", field["detail"])
 
     def test_a_study_that_has_not_recorded_its_bodies_has_no_replay(self):
         recorded = map_page.Recorded(study_of(ROWS, poses=POSES))

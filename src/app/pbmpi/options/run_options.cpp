@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "app/common/quantities.h"
 #include "core/error.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
@@ -204,10 +203,11 @@ std::vector<RunOption> output_rows() {
       {.name = "budget",
        .member = &RunSpec::budget_s,
        .group = group,
-       .placeholder = "SECONDS",
+       .placeholder = "TIME",
        .meaning = "time that a frame may take, e.g. 3.33ms (us, ms, s); default: a tenth of 1/30 s",
        .saved = Saved::value,
-       .recorded = true},
+       .recorded = true,
+       .measure = &core::frame_time},
   };
 }
 
@@ -217,9 +217,9 @@ std::vector<RunOption> stop_rows() {
       {.name = "max-time",
        .member = &RunSpec::max_time_s,
        .group = group,
-       .placeholder = "SECONDS",
+       .placeholder = "TIME",
        .meaning = "stop with a checkpoint at the end of the frame in which so much time has passed since the "
-                  "start"},
+                  "start, e.g. 90s, 30min, 2h"},
       {.name = "checkpoint",
        .member = &RunSpec::checkpoint_file,
        .group = group,
@@ -230,8 +230,8 @@ std::vector<RunOption> stop_rows() {
       {.name = "checkpoint-every",
        .member = &RunSpec::checkpoint_every_s,
        .group = group,
-       .placeholder = "SECONDS",
-       .meaning = "save the run this often, too"},
+       .placeholder = "TIME",
+       .meaning = "save the run this often, too, e.g. 10min"},
       {.name = "resume",
        .member = &RunSpec::resume,
        .group = group,
@@ -269,8 +269,8 @@ std::uint64_t read(const std::string& text, const std::string& what, const RunOp
   return stepping::read_number<std::uint64_t>(text, what);
 }
 
-double read(const std::string& text, const std::string& what, const RunOption&, Type<double>) {
-  return parse_time_or_seconds(text, what);
+double read(const std::string& text, const std::string& what, const RunOption& option, Type<double>) {
+  return core::read_quantity(text, what, *option.measure);
 }
 
 std::string read(const std::string& text, const std::string& what, const RunOption&, Type<std::string>) {
@@ -303,13 +303,18 @@ std::optional<T> read(const std::string& text, const std::string& what, const Ru
   return read(text, what, option, Type<T>());
 }
 
-std::string as_text(const std::string& value) { return value; }
-std::string as_text(const WorldRange& value) { return to_text(value); }
-std::string as_text(const model::EffectChoices& value) { return effects::to_text(value); }
+std::string as_text(const RunOption&, const std::string& value) { return value; }
+std::string as_text(const RunOption&, const WorldRange& value) { return to_text(value); }
+std::string as_text(const RunOption&, const model::EffectChoices& value) { return effects::to_text(value); }
+std::string as_text(const RunOption& option, double value) {
+  return core::quantity_text(value, *option.measure);
+}
 template <class Number>
-requires std::is_arithmetic_v<Number> std::string as_text(Number value) { return stepping::written(value); }
+requires std::is_integral_v<Number> std::string as_text(const RunOption&, Number value) {
+  return stepping::written(value);
+}
 template <class Enum>
-requires std::is_enum_v<Enum> std::string as_text(Enum value) {
+requires std::is_enum_v<Enum> std::string as_text(const RunOption&, Enum value) {
   return std::string(names_of(value)[static_cast<std::size_t>(value)]);
 }
 
@@ -374,7 +379,7 @@ std::optional<std::string> text_of(const RunOption& option, const RunSpec& spec)
     if constexpr (std::is_same_v<decltype(value), const bool&>) {
       if (value) text = "";
     } else {
-      text = as_text(value);
+      text = as_text(option, value);
     }
   });
   return text;
@@ -389,7 +394,7 @@ std::optional<stepping::StepValue> value_of(const RunOption& option, const RunSp
     else if constexpr (std::is_integral_v<Value>)
       stored = static_cast<std::int64_t>(value);
     else
-      stored = as_text(value);
+      stored = as_text(option, value);
   });
   return stored;
 }

@@ -14,11 +14,12 @@
 #include <boost/program_options.hpp>
 
 #include "app/pbmpi/options/run_spec.h"
+#include "core/quantity.h"
 #include "stepping/step_options.h"
 
 namespace pbmpi::app {
 
-/// The member of RunSpec that an option sets. Real numbers are times in seconds.
+/// The member of RunSpec that an option sets. Real numbers are quantities with a unit.
 using RunMember = std::variant<bool RunSpec::*, int RunSpec::*, double RunSpec::*, std::uint64_t RunSpec::*,
                                std::optional<int> RunSpec::*, std::optional<double> RunSpec::*,
                                std::optional<std::string> RunSpec::*, std::optional<WorldRange> RunSpec::*,
@@ -47,6 +48,7 @@ struct RunOption {
   bool recorded = false;                                  ///< has a value in /parameters
   int scenes::RunDefaults::*of_scene = nullptr;           ///< what the scene proposes
   int least = 1, most = std::numeric_limits<int>::max();  ///< of whole numbers
+  const core::Measure* measure = &core::run_time;         ///< of real numbers
 };
 
 const std::vector<RunOption>& run_options();

@@ -66,7 +66,7 @@ std::string saved_options(const RunSpec& spec) {
     lines += name + " = " + value + "\n";
   };
   for (const stepping::StepOption& option : stepping::step_options()) {
-    if (fits(option, spec.stepper.kind)) add(std::string(option.name), text_of(option, spec.stepper));
+    if (fits(option, spec.stepper.kind)) add(std::string(option.name), given_text(option, spec.stepper));
   }
   for (const RunOption& option : run_options()) {
     const auto text = option.saved == Saved::no ? std::nullopt : text_of(option, spec);

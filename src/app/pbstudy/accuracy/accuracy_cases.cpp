@@ -80,14 +80,14 @@ void add_matrix(int index, const StudyScene& scene, const AccuracyOptions& optio
   SettingList dts = options.dts;
   if (dts.values.empty()) {
     for (StepperSettings one = base; dts.values.size() < default_dts; one.dt_s /= 2)
-      dts.values.push_back(text_of(*dts.option, one));
+      dts.values.push_back(given_text(*dts.option, one));
   }
   cross_settings(base, {&dts, 1}, [&](const StepperSettings& with_dt) {
     const int steps = steps_in_frame(scene, with_dt.dt_s);
     cross_settings(with_dt, {&options.settings.front(), 1}, [&](const StepperSettings& with_kind) {
       const AccuracyCase first{index, CaseKind::setting, with_kind, steps};
       add_settings(first, options, cases);
-      const bool is_first_step = text_of(*dts.option, with_kind) == dts.values.front();
+      const bool is_first_step = given_text(*dts.option, with_kind) == dts.values.front();
       if (traits_of(with_kind.kind).iterates && is_first_step) add_estimates(first, scene, options, cases);
     });
   });

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "app/common/quantities.h"
+#include "core/quantity.h"
 
 namespace pbmpi::app {
 namespace {
@@ -18,10 +18,11 @@ constexpr std::array<VariedOption, 6> varied = {{
     {"precision", "sor: double, single; default: both", "double single"},
     {"tolerance", "soft law: below how long a way an island gets one substep; default: 0", "0"},
 }};
-constexpr VariedOption varied_dt = {"dt",
-                                    "step [s], a whole number of which fills a frame; default: the scene's, "
-                                    "a half, a quarter and an eighth of it",
-                                    ""};
+constexpr VariedOption varied_dt = {
+    "dt",
+    "step, e.g. 5ms, a whole number of which fills a frame; default: the scene's, "
+    "a half, a quarter and an eighth of it",
+    ""};
 
 po::options_description options_description() {
   po::options_description what("What to vary (lists, separated by blanks; all are crossed)");
@@ -36,7 +37,7 @@ po::options_description options_description() {
   what.add_options()  //
       ("max-sweeps", po::value<int>()->default_value(80)->value_name("N"),
        "leave out cases with more iterations x substeps")  //
-      ("rest-seconds", po::value<double>()->default_value(3)->value_name("S"),
+      ("rest-seconds", po::value<std::string>()->default_value("3s")->value_name("TIME"),
        "time for which the scene at rest is watched under each setting: what falls, creeps or gains energy; "
        "0: none");
   po::options_description how =
@@ -71,30 +72,29 @@ void require_possible(const AccuracyOptions& options) {
   require_at_least({options.own_iterations}, 0, "--own-iterations");
   require_at_least({options.own_most_iterations}, 4 * options.own_iterations, "--own-most-iterations");
   require_at_least(options.estimates, 0, "--estimates");
-  core::require_input(options.rest_s >= 0 && options.rest_s < 1e6,
-                      "--rest-seconds: it must be a time in seconds, or 0 for none");
 }
 
 }  // namespace
 
 Manual accuracy_manual() {
-  return {.name = "pbstudy accuracy",
-          .about =
-              "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
-              "its scene's replicas) and a setting. Its defect is the error after one frame from a state of "
-              "nature, anew in every measured frame: the distance from where ever shorter steps lead, of the "
-              "bodies for which two independent ways agree on that. Its drift is the error along the "
-              "trajectory from the start. Its own defect is the distance from its own equations, solved by "
-              "many iterations of its own stepper.",
-          .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
-          .options = options_description(),
-          .basic = {"scene", "stepper", "iterations", "substeps", "precision", "dt", "estimates", "replicas",
-                    "frames", "repeats", "floor-seeds", "output", "max-time", "resume"},
-          .notes =
-              {"The cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
-               "spoil the times."},
-          .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa",
-                       "pbreport accuracy.h5 --budget 3.33ms --html accuracy.html"}};
+  return {
+      .name = "pbstudy accuracy",
+      .about =
+          "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
+          "its scene's replicas) and a setting. Its defect is the error after one frame from a state of "
+          "nature, anew in every measured frame: the distance from where ever shorter steps lead, of the "
+          "bodies for which two independent ways agree on that. Its drift is the error along the "
+          "trajectory from the start. Its own defect is the distance from its own equations, solved by "
+          "many iterations of its own stepper.",
+      .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
+      .options = options_description(),
+      .basic = {"scene", "stepper", "iterations", "substeps", "precision", "dt", "estimates", "replicas",
+                "frames", "repeats", "floor-seeds", "output", "max-time", "resume"},
+      .notes =
+          {"A rank works on one case at a time, and takes the next when it is done. More ranks than cores "
+           "spoil the times."},
+      .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa",
+                   "pbreport accuracy.h5 --budget 3.33ms --html accuracy.html"}};
 }
 
 AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
@@ -106,12 +106,13 @@ AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {
   options.estimates = list<int>(values, "estimates", {1, 5});
   options.max_sweeps = values["max-sweeps"].as<int>();
   options.nature.most_steps = values["nature-steps"].as<int>();
-  const std::string error = values["nature-error"].as<std::string>();
-  options.nature.error_m = error == "0" ? 0 : parse_length_m(error, "--nature-error");
+  options.nature.error_m =
+      core::read_quantity(values["nature-error"].as<std::string>(), "--nature-error", core::length_with_unit);
   options.nature.seed = options.seed;
   options.own_iterations = values["own-iterations"].as<int>();
   options.own_most_iterations = values["own-most-iterations"].as<int>();
-  options.rest_s = values["rest-seconds"].as<double>();
+  options.rest_s =
+      core::read_quantity(values["rest-seconds"].as<std::string>(), "--rest-seconds", core::run_time_or_none);
   require_possible(options);
   return options;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/quantity.h"
 
 namespace pbmpi::app {
 namespace {
@@ -28,10 +29,10 @@ po::options_description options_description() {
       ("frames", po::value<int>()->value_name("N"), "measured frames; default: the scene's")  //
       ("warmup", po::value<int>()->value_name("N"),
        "frames before them, without cycles; default: the scene's")  //
-      ("budget", po::value<double>()->default_value(1.0 / 300)->value_name("SECONDS"),
-       "the time that a frame may take")                                                                    //
+      ("budget", po::value<std::string>()->value_name("TIME"),
+       "the time that a frame may take, e.g. 3.33ms; default: a tenth of 1/30 s")                           //
       ("tool-option", list_of<std::string>(), "options for pbvalue, e.g. --tool-option=--table-entries=0")  //
-      ("time-limit", po::value<double>()->default_value(1800)->value_name("SECONDS"),
+      ("time-limit", po::value<std::string>()->default_value("30min")->value_name("TIME"),
        "a run that takes longer has not ended");
   add_seed_option("of the scene's variation and of the solver", how);
   po::options_description all;
@@ -53,7 +54,7 @@ Manual prediction_manual() {
       .options = options_description(),
       .basic = {"scene", "threshold", "full", "replicas", "frames", "budget", "time-limit", "output",
                 "max-time", "resume"},
-      .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
+      .notes = {"A rank works on one case at a time, and takes the next when it is done."},
       .examples = {"mpirun -n 2 pbstudy prediction --scene CrashSk",
                    "jobs/paper/paper.py prediction prediction.h5 --html prediction.html"}};
 }
@@ -68,10 +69,10 @@ PredictionOptions parse_prediction_options(const std::vector<std::string>& args)
     core::require_input(threshold > 0 && std::isfinite(threshold), "--threshold: it must be above 0");
   options.detail_scene = values["detail-scene"].as<std::string>();
   options.tool_options = list<std::string>(values, "tool-option", {});
-  options.budget_s = values["budget"].as<double>();
-  options.time_limit_s = values["time-limit"].as<double>();
-  core::require_input(options.budget_s > 0, "--budget: it must be above 0");
-  core::require_input(options.time_limit_s > 0, "--time-limit: it must be above 0");
+  if (values.count("budget") != 0)
+    options.budget_s = core::read_quantity(values["budget"].as<std::string>(), "--budget", core::frame_time);
+  options.time_limit_s =
+      core::read_quantity(values["time-limit"].as<std::string>(), "--time-limit", core::run_time);
   options.full = values.count("full") != 0;
   return options;
 }

@@ -13,7 +13,7 @@ struct PredictionOptions : StudyOptions {
   std::vector<double> thresholds;         ///< for fuzzy prediction, the first one from Figure 8
   std::string detail_scene;               ///< the scene for the sensitivity table and the scopes; "none"
   std::vector<std::string> tool_options;  ///< for pbvalue, after the study's own
-  double budget_s = 0;                    ///< per frame
+  double budget_s = 1.0 / 300;            ///< per frame
   double time_limit_s = 0;                ///< per run
   bool full = false;                      ///< every world of every scene, cycles of every threshold
 };

@@ -1,6 +1,7 @@
 #include "app/pbstudy/stability/stability_options.h"
 
 #include <limits>
+#include <set>
 
 #include "core/error.h"
 #include "stepping/step_options.h"
@@ -22,9 +23,9 @@ po::options_description options_description() {
   po::options_description what("What to measure");
   what.add_options()  //
       ("scene", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME|FILE..."),
-       "scenes with a [case] (scenes/FORMAT.md); default: all of scenes/hard")           //
-      ("setting", list_of<std::string>(), setting_help().c_str())                        //
-      ("dt", list_of<std::string>(), "take every setting with each of these steps [s]")  //
+       "scenes with a [case] (scenes/FORMAT.md); default: all of scenes/hard")                 //
+      ("setting", list_of<std::string>(), setting_help().c_str())                              //
+      ("dt", list_of<std::string>(), "take every setting with each of these steps, e.g. 5ms")  //
       ("most-work", po::value<double>()->value_name("N"),
        "leave out cases of more than so many bodies x steps; default: none");
   po::options_description how("How to measure");
@@ -48,6 +49,7 @@ std::vector<std::string> hard_case_names() {
 std::vector<StabilitySetting> crossed(const std::vector<std::string>& settings,
                                       const std::vector<std::string>& dts) {
   std::vector<StabilitySetting> all;
+  std::set<std::string> names;
   for (const std::string& text : settings) {
     const StabilitySetting setting = parse_stability_setting(text);
     if (dts.empty()) all.push_back(setting);
@@ -56,6 +58,11 @@ std::vector<StabilitySetting> crossed(const std::vector<std::string>& settings,
       set(stepping::step_option("dt"), dt, "--dt", all.back().stepper);
       all.back().own_dt = true;
     }
+  }
+  for (const StabilitySetting& one : all) {
+    const std::string name = setting_text(one);
+    core::require_input(names.insert(name).second,
+                        "--setting, --dt: the setting " + name + " stands in the study twice; name it once");
   }
   return all;
 }
@@ -71,7 +78,7 @@ Manual stability_manual() {
           .usage = "mpirun -n RANKS pbstudy stability [--scene NAME...] [--setting TEXT...] [options]",
           .options = options_description(),
           .basic = {"scene", "setting", "dt", "most-work", "seed", "output", "max-time", "resume"},
-          .notes = {"The cases are dealt out over the ranks; a rank works on one at a time."},
+          .notes = {"A rank works on one case at a time, and takes the next when it is done."},
           .examples = {"mpirun -n 2 pbstudy stability --setting sor quick",
                        "pbreport stability.h5 --html stability.html"}};
 }

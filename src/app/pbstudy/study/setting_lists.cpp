@@ -52,10 +52,12 @@ SettingList setting_list(const VariedOption& varied, const boost::program_option
   SettingList given = {&stepping::step_option(varied.name),
                        list<std::string>(values, std::string(varied.name).c_str(), words(varied.fallback))};
   stepping::StepperSettings tried;
-  for (const std::string& value : given.values) {
+  for (std::string& value : given.values) {
     set_value(given, value, tried);
     if (varied.name == "stepper") engines::require_in_build(tried.kind, "--stepper " + value);
+    value = given_text(*given.option, tried);
   }
+  require_distinct(given.values, "--" + std::string(varied.name));
   return given;
 }
 

@@ -29,7 +29,8 @@ struct SettingList {
 /// Adds an option that takes a list.
 void add_setting_list(const VariedOption& varied, boost::program_options::options_description& description);
 
-/// The values given, or the fallback. Throws core::InputError for an impossible one.
+/// The values given, or the fallback. Throws core::InputError for an impossible one, and for one that stands
+/// there twice, in whatever unit.
 SettingList setting_list(const VariedOption& varied, const boost::program_options::variables_map& values);
 std::vector<SettingList> setting_lists(std::span<const VariedOption> varied,
                                        const boost::program_options::variables_map& values);

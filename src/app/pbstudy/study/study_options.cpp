@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "app/common/quantities.h"
+#include "core/quantity.h"
 #include "core/system/input_file.h"
 
 namespace pbmpi::app {
@@ -66,8 +66,9 @@ po::options_description what_to_write(const char* default_output) {
   write.add_options()                                                                                      //
       ("output,o", po::value<std::string>()->default_value(default_output)->value_name("FILE"),            //
        "HDF5 file of the study (io/SCHEMA.md); cases that are done are kept beside it until it is there")  //
-      ("max-time", po::value<std::string>()->value_name("SECONDS"),
-       "begin no case after so long; exit code 75 if any is left, as after a signal USR2")  //
+      ("max-time", po::value<std::string>()->value_name("TIME"),
+       "begin no case after so long, e.g. 90s, 30min, 2h; exit code 75 if any is left, as after a signal "
+       "USR2")  //
       ("resume", po::bool_switch(),
        "leave out the cases that a stopped or killed study of the same options and build has done");
   return write;
@@ -88,7 +89,8 @@ StudyOptions study_options(const po::variables_map& values, const std::string& p
   options.output = output_path(values, "output").value();
   options.resume = values["resume"].as<bool>();
   if (values.count("max-time") != 0)
-    options.max_time_s = parse_time_or_seconds(values["max-time"].as<std::string>(), "--max-time");
+    options.max_time_s =
+        core::read_quantity(values["max-time"].as<std::string>(), "--max-time", core::run_time);
   options.deciding = deciding_among(args);
   if (values.count("config") != 0)
     options.deciding.push_back(core::read_input_file(values["config"].as<std::string>(), "see --config"));

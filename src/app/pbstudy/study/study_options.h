@@ -2,8 +2,10 @@
 /// lists or counts are read.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -33,10 +35,25 @@ auto list_of() {
   return boost::program_options::value<std::vector<T>>()->multitoken()->value_name("LIST");
 }
 
+/// Throws core::InputError, opening with `what`, if a value stands twice in a list.
+template <class T>
+void require_distinct(std::vector<T> values, const std::string& what) {
+  std::ranges::sort(values);
+  const auto twice = std::ranges::adjacent_find(values);
+  if (twice == values.end()) return;
+  std::ostringstream text;
+  text << what << ' ' << *twice << ": it stands in the list twice; name it once";
+  throw core::InputError(text.str());
+}
+
+/// The values given, or the fallback. Throws core::InputError for one that stands there twice.
 template <class T>
 std::vector<T> list(const boost::program_options::variables_map& values, const char* name,
                     std::vector<T> fallback) {
-  return values.count(name) != 0 ? values[name].as<std::vector<T>>() : fallback;
+  if (values.count(name) == 0) return fallback;
+  const std::vector<T> given = values[name].as<std::vector<T>>();
+  require_distinct(given, "--" + std::string(name));
+  return given;
 }
 
 /// Throws core::InputError naming `option`.

@@ -70,7 +70,7 @@ inline std::string options_text(const stepping::StepperSettings& settings) {
   std::string text;
   for (const stepping::StepOption& option : stepping::step_options()) {
     if (option.in_studies && fits(option, settings.kind))
-      text += (text.empty() ? "--" : " --") + std::string(option.name) + " " + text_of(option, settings);
+      text += (text.empty() ? "--" : " --") + std::string(option.name) + " " + given_text(option, settings);
   }
   return text;
 }
