@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/quantity.h"
 #include "core/text.h"
 #include "scenes/parts/parts.h"
 
@@ -36,8 +37,19 @@ const toml::node* TableReader::find(std::string_view key) {
 
 const toml::node& TableReader::need(std::string_view key) {
   const toml::node* node = find(key);
-  if (!node) fail_at(*table_, "the key " + core::in_quotes(key) + " is missing; add it");
+  if (!node) fail_missing(key);
   return *node;
+}
+
+/// Names the key that may stand there with a typing error.
+void TableReader::fail_missing(std::string_view key) const {
+  std::vector<std::string> others = keys();
+  std::erase_if(others,
+                [&](const std::string& one) { return std::ranges::find(known_, one) != known_.end(); });
+  const std::string near = core::nearest_name(key, others);
+  if (near.empty()) fail_at(*table_, "the key " + core::in_quotes(key) + " is missing; add it");
+  fail(near,
+       "the key " + core::in_quotes(key) + " is missing; is " + core::in_quotes(near) + " meant for it?");
 }
 
 const toml::array& TableReader::need_array(std::string_view key, std::string_view form) {
@@ -58,6 +70,10 @@ double TableReader::checked_number(std::string_view key, const toml::node& node,
   if (std::isnan(value) || (range == Range::finite && !std::isfinite(value))) refuse("finite");
   if (sign == Sign::positive && value <= 0) refuse("above 0");
   if (sign == Sign::non_negative && value < 0) refuse("at least 0");
+  if (std::isfinite(value) && std::abs(value) > core::largest_number)
+    refuse("from -1e30 to 1e30, for the solver to carry its products");
+  if (sign == Sign::positive && value < core::smallest_number)
+    refuse("at least 1e-30, for the solver to carry its products");
   return value;
 }
 

@@ -14,7 +14,7 @@
 
 namespace pbmpi::scenes {
 
-/// The allowed sign of a number, which must always be finite.
+/// The allowed sign of a number, which must always be finite and within core/quantity.h.
 enum class Sign { any, positive, non_negative };
 
 /// Each getter marks its key as known; finish() then refuses every other key. All errors are core::InputError
@@ -78,6 +78,7 @@ class TableReader {
  private:
   const toml::node* find(std::string_view key);
   const toml::node& need(std::string_view key);
+  [[noreturn]] void fail_missing(std::string_view key) const;
   const toml::array& need_array(std::string_view key, std::string_view form);
   enum class Range { finite, infinite };
   double checked_number(std::string_view key, const toml::node& node, Sign sign,

@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/quantity.h"
 #include "core/text.h"
 
 namespace pbmpi::scenes::xml {
@@ -64,6 +65,8 @@ double Attributes::number(std::string_view name, Range range, std::optional<doub
   if (values.empty() && !fallback) fail("it has no " + core::in_quotes(name) + "; give a number");
   const double value = values.empty() ? *fallback : values.front();
   if (range == Range::positive && !(value > 0)) fail(name, core::in_quotes(name) + " must be above 0");
+  if (range == Range::positive && value < core::smallest_number)
+    fail(name, core::in_quotes(name) + " must be at least 1e-30, for the solver to carry its products");
   if (range == Range::non_negative && !(value >= 0))
     fail(name, core::in_quotes(name) + " must be at least 0");
   return value;
@@ -207,6 +210,9 @@ double Attributes::to_number(const Attribute& attribute, std::string_view word) 
   const auto [stop, error] = std::from_chars(digits.data(), end, value);
   if (error != std::errc() || stop != end || !std::isfinite(value))
     fail(attribute.name, core::in_quotes(word) + " is not a finite number");
+  if (std::abs(value) > core::largest_number)
+    fail(attribute.name,
+         core::in_quotes(word) + " is not from -1e30 to 1e30, for the solver to carry its products");
   return value;
 }
 

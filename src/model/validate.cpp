@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "core/error.h"
+#include "core/quantity.h"
 #include "model/joint_traits.h"
 #include "model/shape_traits.h"
 
@@ -20,6 +21,10 @@ namespace {
 using core::require_input;
 
 constexpr double unit_tolerance = 1e-9;  // for lengths that should be 1; normalising rounds by 1e-16
+
+/// [kg m^2] of the largest mass and size, and of the smallest.
+constexpr double most_inertia = core::largest_number * core::largest_number * core::largest_number;
+constexpr double least_inertia = core::smallest_number * core::smallest_number * core::smallest_number;
 
 bool is_finite(const Quat& q) {
   return std::isfinite(q.w) && std::isfinite(q.x) && std::isfinite(q.y) && std::isfinite(q.z);
@@ -47,11 +52,20 @@ void validate_body(const Model& model, const Body& body, const std::string& who)
   require_index(body.actor, model.actors.size(), who, "actor");
   require_input(std::isfinite(body.mass_kg) && body.mass_kg > 0,
                 who + ": the mass is " + std::to_string(body.mass_kg) + " kg; it must be finite and above 0");
+  require_input(body.mass_kg >= core::smallest_number && body.mass_kg <= core::largest_number,
+                who +
+                    ": the mass is beyond 1e-30 to 1e30 kg, whose products the solver can carry; check the "
+                    "density and sizes");
   require_input(body.inertia.allFinite() && body.inertia.isApprox(body.inertia.transpose(), unit_tolerance),
                 who + ": the inertia is not a symmetric finite matrix");
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(body.inertia, Eigen::EigenvaluesOnly);
   require_input(eigen.eigenvalues().minCoeff() > 0,
                 who + ": the inertia is not positive definite; check the mass and sizes");
+  require_input(
+      eigen.eigenvalues().minCoeff() >= least_inertia && eigen.eigenvalues().maxCoeff() <= most_inertia,
+      who +
+          ": the inertia is beyond 1e-90 to 1e90 kg m^2, whose products the solver can carry; "
+          "check the mass and sizes");
   require_pose(body.pose, who);
   require_input(body.velocity.allFinite() && body.angular_velocity.allFinite(),
                 who + ": the velocity is not finite");

@@ -41,6 +41,8 @@ std::string geom_text(const model::Model& model, int geom) {
 std::string detail_of(const Trip& trip, const model::Model& model, const std::string& name) {
   switch (trip.guard) {
     case Guard::nonfinite:
+      if (!trip.observable.empty())
+        return "the observable '" + name + "' is not finite, though all bodies are,";
       return number(trip.value, trip.value > 1 ? " bodies are" : " body is") + " not finite, first '" + name +
              "'";
     case Guard::joint_gap:
@@ -88,6 +90,8 @@ std::optional<Trip> Guards::check(const Span& span, std::span<const Vec3> from, 
                 .body = first_nonfinite(span.after.state),
                 .value = static_cast<double>(span.after.nonfinite)};
   }
+  if (!span.after.not_finite.empty() && (span.before.not_finite.empty() || span.first_step == 0))
+    return Trip{.guard = Guard::nonfinite, .step = last_step, .observable = span.after.not_finite};
   energy_.add({span.before.state, span.before.energy_j}, {span.after.state, span.after.energy_j},
               span.first_step, span.num_steps, memory);
   std::optional<Trip> trip = check_gaps(span);
@@ -149,6 +153,7 @@ stepping::RunEvent event_of(const Trip& trip, int world, const model::Model& mod
   event.joint = trip.joint;
   if (trip.joint >= 0) event.name = model.joints[trip.joint].name;
   if (trip.body >= 0) event.name = model.bodies[trip.body].name;
+  if (!trip.observable.empty()) event.name = trip.observable;
   event.value = trip.value;
   event.detail = "world " + std::to_string(world) + ": " + detail_of(trip, model, event.name) + " in step " +
                  std::to_string(trip.step);

@@ -5,13 +5,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "model/model.h"
 #include "model/state.h"
 #include "stability/energy_gain.h"
 #include "stability/passage.h"
-#include "stepping/observables.h"
+#include "stepping/observable_table.h"
 #include "stepping/run_event.h"
 
 namespace pbmpi::stability {
@@ -35,11 +36,12 @@ enum class Guard { nonfinite, joint_gap, energy_gain, passage };
 /// A guard that has tripped.
 struct Trip {
   Guard guard = Guard::nonfinite;
-  std::int64_t step = 0;      ///< counted from 0: the last step before the guard saw it
-  int body = model::no_body;  ///< nonfinite, passage
-  int joint = -1;             ///< joint_gap
-  int through = -1;           ///< passage: geom
-  double value = 0;           ///< what the guard measured: stepping::event_kind
+  std::int64_t step = 0;             ///< counted from 0: the last step before the guard saw it
+  int body = model::no_body;         ///< nonfinite, passage
+  int joint = -1;                    ///< joint_gap
+  int through = -1;                  ///< passage: geom
+  std::string_view observable = {};  ///< nonfinite: the first that is not finite, where all bodies are
+  double value = 0;                  ///< what the guard measured: stepping::event_kind
   double limit = 0;
 };
 
@@ -49,12 +51,14 @@ struct Seen {
   double energy_j = 0;
   double joint_gap_m = 0;
   int nonfinite = 0;
+  std::string_view not_finite;  ///< stepping::first_not_finite()
 
   Seen(const model::State& at, const stepping::Observables& observables)
       : state(at),
         energy_j(observables.energy_j),
         joint_gap_m(observables.joint_gap_m),
-        nonfinite(observables.nonfinite) {}
+        nonfinite(observables.nonfinite),
+        not_finite(stepping::first_not_finite(observables)) {}
 };
 
 /// Checks one world between two states, one or several steps apart. Work that costs more than a pass over the
@@ -70,7 +74,8 @@ class Guards {
     std::int64_t first_step = 0;
     int num_steps = 1;
   };
-  /// The first guard that trips among: non-finite numbers, a joint that opens beyond its limit (and was
+  /// The first guard that trips among: non-finite numbers (of bodies; of observables that were finite before,
+  /// or in the first step), a joint that opens beyond its limit (and was
   /// within it before), energy gained without a cause, a passage. Gains of energy are summed in `memory`.
   /// `from` and `pace` are those of PassageFinder::find().
   std::optional<Trip> check(const Span& span, std::span<const model::Vec3> from, PassageFinder::Pace pace,

@@ -81,6 +81,10 @@ void with_member(const Column& column, Visit&& visit) {
 /// The number in a column. It must not be a vector.
 double number_of(const Observables& seen, const WorldColumn& column);
 
+/// The name of the first column, of those of the residuals too, with a NaN or an infinity; empty if all
+/// numbers are finite.
+std::string_view first_not_finite(const Observables& seen);
+
 /// Joins numbers of worlds or ranks.
 double join(Join rule, std::span<const double> numbers);
 

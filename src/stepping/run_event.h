@@ -18,7 +18,8 @@ inline constexpr const char* checkpoint = "checkpoint";      ///< value: 1 if it
 inline constexpr const char* joint_broken = "joint_broken";  ///< step, world, joint and name tell which
 
 // A guard that tripped (stability/guards.h); step, world and name tell where.
-inline constexpr const char* nonfinite = "nonfinite";      ///< value: bodies; name: the first
+/// value: bodies; name: the first, or with a value of 0 an observable
+inline constexpr const char* nonfinite = "nonfinite";
 inline constexpr const char* joint_gap = "joint_gap";      ///< value: the widest gap [m]
 inline constexpr const char* energy_gain = "energy_gain";  ///< value: gained without a cause [J]
 inline constexpr const char* passage = "passage";          ///< value: path beyond what was passed [m]

@@ -167,6 +167,24 @@ TEST(GuardedStepper, names_body_and_step_where_a_number_is_not_finite) {
   EXPECT_GT(stepper->observables(1).nonfinite, 0);
 }
 
+TEST(GuardedStepper, names_an_observable_that_is_not_finite_once) {
+  Model heavy = support::free_box();
+  heavy.bodies[0].mass_kg = 1e300;
+  heavy.bodies[0].velocity.x() = 1e10;
+  const StepperSettings settings = of_kind(StepperKind::sor);
+  const MakeStepper make = [](const StepperSettings& chosen) { return make_any_stepper(chosen); };
+  GuardedStepper stepper(make(settings), GuardSettings{OnBlowup::report, settings, make, {}});
+  const auto model = std::make_shared<const Model>(std::move(heavy));
+  stepper.add(0, model, initial_state(*model), 0);
+  const auto events = run_frames(stepper, 3);
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].kind, event_kind::nonfinite);
+  EXPECT_EQ(events[0].name, "energy");
+  EXPECT_EQ(events[0].detail,
+            "world 0: the observable 'energy' is not finite, though all bodies are, in step 0");
+  EXPECT_EQ(stepper.observables(0).nonfinite, 0);
+}
+
 std::vector<std::uint64_t> hashes_of(const stepping::WorldStepper& stepper) {
   std::vector<std::uint64_t> hashes;
   for (int world = 0; world < 3; ++world) hashes.push_back(model::hash(stepper.state(world)));

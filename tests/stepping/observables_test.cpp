@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "support/models.h"
@@ -70,6 +71,17 @@ TEST(Observables, of_a_world_that_sleeps_keep_what_follows_from_its_state) {
   EXPECT_EQ(seen.islands, 5);
   EXPECT_EQ(seen.joint_gap_m, 0.5);
   EXPECT_EQ(seen.energy_j, 0.5);
+}
+
+TEST(Observables, that_are_not_finite_are_named) {
+  Observables seen;
+  EXPECT_EQ(first_not_finite(seen), "");
+  seen.residuals.natural_turn = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(first_not_finite(seen), "natural_turn");
+  seen.angular_momentum[2] = -std::numeric_limits<double>::infinity();
+  EXPECT_EQ(first_not_finite(seen), "angular_momentum");
+  seen.energy_j = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(first_not_finite(seen), "energy");
 }
 
 TEST(Observables, of_a_state_are_zero_gap_without_joints_and_count_broken_numbers) {
