@@ -31,7 +31,23 @@ bool is_array_of_tables(const toml::node& node) {
   return array && !array->empty() && (*array)[0].is_table();
 }
 
-void merge_by_name(toml::array& base, toml::array&& over) {
+/// A new entry needs the key that says what it is; without it a slip of the name is likelier.
+void require_kind_of_new(const std::string& list, const std::string& name, const toml::node& entry,
+                         const std::map<std::string, std::size_t>& index) {
+  const std::string key = list == "actor" ? "type" : list == "joint" ? "kind" : "";
+  if (key.empty() || entry.as_table()->contains(key)) return;
+  std::vector<std::string> names;
+  names.reserve(index.size());
+  for (const auto& [known, at] : index) names.push_back(known);
+  const std::string near = core::nearest_name(name, names);
+  throw core::InputError(to_string(entry.source()) + ": " + list + " " + core::in_quotes(name) +
+                         ": the base has none of this name, and a new one needs the key " +
+                         core::in_quotes(key) +
+                         (near.empty() ? "; add it" : "; did you mean " + core::in_quotes(near) + "?"));
+}
+
+/// `list`: the key of both arrays.
+void merge_by_name(const std::string& list, toml::array& base, toml::array&& over) {
   std::map<std::string, std::size_t> index;  // of the first of a name
   const auto add = [&](const toml::node& entry, std::size_t at) {
     if (const auto name = name_of(entry)) index.emplace(*name, at);
@@ -43,6 +59,7 @@ void merge_by_name(toml::array& base, toml::array&& over) {
     if (same != index.end()) {
       lay_over(*base[same->second].as_table(), std::move(*entry.as_table()));
     } else {
+      if (name) require_kind_of_new(list, *name, entry, index);
       add(entry, base.size());
       base.push_back(std::move(entry));
     }
@@ -144,7 +161,7 @@ void lay_over(toml::table& base, toml::table&& over) {
     if (old && old->is_table() && node.is_table()) {
       lay_over(*old->as_table(), std::move(*node.as_table()));
     } else if (old && is_array_of_tables(*old) && is_array_of_tables(node) && key.str() != whole_array) {
-      merge_by_name(*old->as_array(), std::move(*node.as_array()));
+      merge_by_name(std::string(key.str()), *old->as_array(), std::move(*node.as_array()));
     } else {
       base.erase(key.str());  // the key must also report the new place
       base.insert_or_assign(key, std::move(node));

@@ -56,7 +56,8 @@ std::int64_t step_at(double time_s, double dt_s, const std::string& where) {
 void add_event(model::Model& model, const model::Event& event) {
   if (model.events.size() >= most_things)
     throw std::length_error(
-        "the world has more than 4,000,000 events; shorten what its actors do at given times");
+        "the world has more than 4,000,000 events; shorten what its actors do at given times, or take longer "
+        "steps");
   model.events.push_back(event);
 }
 

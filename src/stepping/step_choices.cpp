@@ -19,7 +19,7 @@ void require_known(const std::map<std::string, std::string>& texts, const std::s
   }
 }
 
-/// Makes a list such as "--substeps, --simd and --threads".
+/// Makes a list such as "sor, quick and bullet".
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
@@ -35,23 +35,17 @@ std::vector<StepperKind> steppers_with(const StepOption& option) {
   return kinds;
 }
 
-/// All options of the steppers that have this one, and of no other stepper.
-std::string refusal(const StepOption& option, const std::string& dashes) {
-  const std::vector<StepperKind> kinds = steppers_with(option);
-  std::vector<std::string> options, steppers;
-  for (const StepOption& other : step_options()) {
-    if (steppers_with(other) == kinds) options.push_back(dashes + std::string(other.name));
-  }
-  for (const StepperKind kind : kinds) steppers.emplace_back(name_of(kind));
-  const bool is_one = options.size() == 1;
-  return listed(options) + (is_one ? " is an option of " : " are options of ") + dashes + "stepper " +
-         listed(steppers) + "; the other steppers " + (is_one ? "do not have it" : "have none of them");
+std::string refusal(const StepOption& option, StepperKind kind, const std::string& dashes) {
+  std::vector<std::string> steppers;
+  for (const StepperKind one : steppers_with(option)) steppers.emplace_back(name_of(one));
+  return dashes + std::string(option.name) + " is an option of " + dashes + "stepper " + listed(steppers) +
+         "; " + dashes + "stepper " + std::string(name_of(kind)) + " does not have it: leave it out";
 }
 
 void require_fitting(const StepperSettings& settings, const std::string& dashes) {
   for (const StepOption& option : step_options()) {
     if (!fits(option, settings.kind) && !is_default(option, settings))
-      throw core::InputError(refusal(option, dashes));
+      throw core::InputError(refusal(option, settings.kind, dashes));
   }
 }
 

@@ -158,7 +158,7 @@ TEST(Options, an_estimate_that_cannot_be_is_refused_by_name) {
   EXPECT_NE(refused("sor single").find("STEPPER iterations=N precision=NAME"), std::string::npos);
   EXPECT_EQ(refused("iterations=2 iterations=3"),
             "--feec='iterations=2 iterations=3': iterations stands there twice");
-  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "sor", "iterations=3"}).find("without a dash"),
+  EXPECT_NE(refusal({"--scene", "Fake", "--feec", "sor", "iterations=3"}).find("stands alone"),
             std::string::npos)
       << "the words of a setting are one word of the command line";
   EXPECT_NE(refusal({"--scene", "Fake", "--solver-seed", "-x"}).find("solver-seed"), std::string::npos);
@@ -167,7 +167,7 @@ TEST(Options, an_estimate_that_cannot_be_is_refused_by_name) {
 TEST(Options, a_slip_of_the_pen_gets_a_suggestion) {
   EXPECT_NE(refusal({"--scene", "Fake", "--itertions", "4"}).find("did you mean --iterations?"),
             std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "stray"}).find("without a dash"), std::string::npos);
+  EXPECT_NE(refusal({"--scene", "Fake", "stray"}).find("stands alone"), std::string::npos);
 }
 
 TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
@@ -321,6 +321,11 @@ TEST(Options, ask_about_a_number_without_a_unit_that_is_probably_meant_in_anothe
   EXPECT_EQ(options.run.checkpoint_every_s, 600);
   EXPECT_EQ(options.run.budget_s, 0.002);
   EXPECT_EQ(options.step.settings.tolerance_m, 0.01);
+}
+
+TEST(Options, name_a_word_that_stands_alone) {
+  EXPECT_EQ(refusal({"CrashSk"}),
+            "the word 'CrashSk' stands alone on the command line; did you mean --scene CrashSk?");
 }
 
 }  // namespace

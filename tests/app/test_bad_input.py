@@ -102,6 +102,29 @@ class BadInput(Refusals):
     def test_zero_frames(self):
         self.refused(2, ["--scene", "CrashSk", "--frames", "0"], "--frames", "at least 1")
 
+    def test_a_word_alone_is_named(self):
+        self.refused(2, ["CrashSk"], "'CrashSk'", "--scene CrashSk")
+        for study in ("accuracy", "effects", "stability", "prediction"):
+            result = self.run_command([PBSTUDY, study, "CrashSk"])
+            self.assertEqual(result.returncode, 2)
+            self.assertIn("did you mean --scene CrashSk?", result.stderr)
+
+    def test_a_slip_in_a_name_of_the_base_is_found(self):
+        over = 'title = "x"\nbase = "CrashSk"\n[[actor]]\nname = "gruond"\nposition = [0, 0, 0]\n'
+        self.refused(2, self.scene(over), "scene.toml:3:", "gruond", "'type'", "did you mean 'ground'")
+        over = 'title = "x"\nbase = "hard/joints/bridge30"\n[[joint]]\nname = "jiont"\n'
+        self.refused(2, self.scene(over), "scene.toml:3:", "jiont", "'kind'")
+
+    def test_a_slip_in_a_key_that_is_needed_is_found(self):
+        self.refused(2, self.scene(GOOD_SCENE.replace("size =", "sizes =")), "scene.toml:9:", "'size' is missing", "'sizes'")
+
+    def test_an_option_that_the_stepper_lacks_is_named_alone(self):
+        for option, value in (("--substeps", "4"), ("--tolerance", "1mm"), ("--threads", "2"), ("--precision", "single")):
+            self.refused(2, ["--scene", "CrashSk", "--stepper", "quick", option, value], f"pbmpi: {option} is an option of --stepper sor")
+
+    def test_an_estimate_without_iterations_takes_none(self):
+        self.refused(2, ["--scene", "CrashSk", "--feec=direct iterations=3"], "--feec", "iterations", "direct")
+
     def test_unknown_option_names_the_nearest(self):
         self.refused(2, ["--scene", "CrashSk", "--iteration", "3"], "--iteration", "--iterations")
 

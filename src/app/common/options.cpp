@@ -31,6 +31,32 @@ std::string unknown_option_message(const std::string& option, const po::options_
          (nearest.empty() ? "see --help" : "did you mean --" + nearest + "?");
 }
 
+constexpr const char* stray_words = "(word)";  // no word of a command line is an option of this name
+
+/// Takes what is in `description`, and as stray_words each word that has no option before it.
+po::variables_map take(const std::vector<std::string>& args, const po::options_description& description,
+                       po::positional_options_description positional) {
+  po::options_description all;
+  all.add(description).add_options()(stray_words, po::value<std::vector<std::string>>());
+  if (positional.max_total_count() == 0) positional.add(stray_words, -1);
+  po::variables_map values;
+  po::store(po::command_line_parser(args)
+                .options(all)
+                .positional(positional)
+                .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
+                .run(),
+            values);
+  return values;
+}
+
+void require_no_stray_word(const po::variables_map& values, const po::options_description& description) {
+  if (values.count(stray_words) == 0) return;
+  const std::string word = values[stray_words].as<std::vector<std::string>>().front();
+  const bool lacks_scene = description.find_nothrow("scene", false) != nullptr && values.count("scene") == 0;
+  throw core::InputError("the word " + core::in_quotes(word) + " stands alone on the command line; " +
+                         (lacks_scene ? "did you mean --scene " + word + "?" : "see --help"));
+}
+
 }  // namespace
 
 po::options_description common_options_description() {
@@ -54,12 +80,8 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
   const std::string in_checkpoint = "the options in the checkpoint: ";
   std::string where;  // what is being read, with ": "; empty for the command line
   try {
-    po::store(po::command_line_parser(help_arguments(args).args)
-                  .options(description)
-                  .positional(positional)
-                  .style(po::command_line_style::unix_style & ~po::command_line_style::allow_guessing)
-                  .run(),
-              values);
+    values = take(help_arguments(args).args, description, positional);
+    require_no_stray_word(values, description);
     if (values.count("config") != 0) {  // boost keeps the first value stored
       const auto file = values["config"].as<std::string>();
       where = file + ": ";
@@ -76,8 +98,6 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
     throw core::InputError(
         where + unknown_option_message(error.get_option_name(), description) +
         (where == in_checkpoint ? " (another version of pbmpi wrote it, and can go on from it)" : ""));
-  } catch (const po::too_many_positional_options_error&) {
-    throw core::InputError("a word without a dash stands on the command line; see --help");
   } catch (const po::error& error) {
     throw core::InputError(where + error.what() + "; see --help");
   }
