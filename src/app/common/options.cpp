@@ -68,7 +68,7 @@ po::options_description common_options_description() {
        "read options from FILE, one 'name = value' a line; the command line wins")  //
       ("quiet,q", "print nothing but errors and what --report json asks for")       //
       ("progress", po::value<std::string>()->default_value("auto")->value_name("auto|always|never"),
-       "progress bar on stderr; auto: only on a terminal");
+       "progress on stderr; auto: a bar on a terminal, elsewhere a line every 10 s; always: a bar");
   return common;
 }
 

@@ -1,4 +1,4 @@
-/// Progress on one line that is redrawn in place.
+/// Progress on stderr: one line that is redrawn in place, or a line now and then where that cannot be.
 #pragma once
 
 #include <cstddef>
@@ -10,24 +10,31 @@
 
 namespace pbmpi::app {
 
-/// Should progress be drawn on stderr: always, or automatic on a terminal unless the program is quiet?
-bool wants_progress(const CommonOptions& common);
+/// How progress is shown: as a bar where it is always wanted or stderr is a terminal, else, as under mpirun,
+/// in lines. A quiet program shows it only if it is always wanted.
+enum class ProgressForm { none, bar, lines };
+ProgressForm progress_form(const CommonOptions& common);
 
-/// Redraws at most ten times a second.
+/// From now on this process says on stderr what it waits for where that lasts over two seconds, unless no
+/// progress is to be shown: a run or a study that begins slowly.
+void tell_of_slow_starts(const CommonOptions& common);
+
+/// A bar is redrawn at most ten times a second.
 class ProgressLine {
  public:
-  /// `out` is borrowed.
-  explicit ProgressLine(std::ostream& out) : out_(out) {}
-  ~ProgressLine();  ///< ends the line
+  /// `out` is borrowed. `form`: bar or lines.
+  ProgressLine(std::ostream& out, ProgressForm form, double line_interval_s = 10);
+  ~ProgressLine();  ///< ends the bar's line
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  /// Draws the result of `text` if a tenth of a second has passed, or this `is_last`.
+  /// Shows the result of `text` if it is time, or a bar's `is_last`.
   void show(bool is_last, const std::function<std::string()>& text);
 
  private:
   std::ostream& out_;
-  double last_s_ = 0;
+  ProgressForm form_;
+  double line_interval_s_, last_s_;
   std::size_t width_ = 0;  ///< of the text now on the line
 };
 

@@ -47,6 +47,21 @@ Provenance collect_provenance(const mpi::Communicator& comm, const std::string& 
   return provenance;
 }
 
+std::string shared_processors_warning(const std::string& program, const Provenance& provenance,
+                                      int num_threads) {
+  std::ostringstream text;
+  for (const std::string& host : distinct(provenance.hosts)) {
+    const auto num_ranks = std::ranges::count(provenance.hosts, host);
+    if (num_ranks == 1 || num_ranks * num_threads <= provenance.processors) continue;
+    text << program << ": warning: " << num_ranks << " ranks";
+    if (num_threads > 1) text << " of " << num_threads << " threads";
+    text << " take turns on the " << provenance.processors
+         << (provenance.processors == 1 ? " processor" : " processors") << " of " << host
+         << ", which spoils times; start fewer\n";
+  }
+  return text.str();
+}
+
 std::vector<std::string> distinct(const std::vector<std::string>& values) {
   std::vector<std::string> result;
   for (const std::string& value : values) {

@@ -20,6 +20,11 @@ struct Provenance {
 /// Collective. Root's clock and environment, and the hosts of all ranks.
 Provenance collect_provenance(const mpi::Communicator& comm, const std::string& command_line);
 
+/// Warns of hosts with more ranks x threads than processors, a line each; empty if there is none. The hosts
+/// are taken to be like root's.
+std::string shared_processors_warning(const std::string& program, const Provenance& provenance,
+                                      int num_threads);
+
 /// Each value once, in order of first appearance.
 std::vector<std::string> distinct(const std::vector<std::string>& values);
 

@@ -224,6 +224,7 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   if (spec.max_time_s) driver.set_time_limit(start_s + *spec.max_time_s);
 
   const Provenance provenance = collect_provenance(comm, options.command_line);
+  if (speaks) std::cerr << shared_processors_warning("pbmpi", provenance, spec.stepper.threads) << std::flush;
   signals.enter(SignalRequests::Phase::begin_or_end, speaks);
   awaited.emplace("all ranks to create " + spec.output.value_or("no file"));
   const effects::RunPlan step_plan = gather_plan(comm, driver.local_worlds());
@@ -234,9 +235,11 @@ ExitCode simulate(const mpi::Communicator& comm, const Options& options, Work wo
   LiveSummary live;
   driver.add_observer(live);
   if (file) driver.add_observer(*file);
-  std::unique_ptr<ProgressBar> progress;
-  if (comm.is_root() && wants_progress(options.common)) {
-    progress = std::make_unique<ProgressBar>(std::cerr, spec.total_frames(), spec.checkpoint.first_frame);
+  std::unique_ptr<RunProgress> progress;
+  const ProgressForm form = progress_form(options.common);
+  if (comm.is_root() && form != ProgressForm::none) {
+    progress =
+        std::make_unique<RunProgress>(std::cerr, form, spec.total_frames(), spec.checkpoint.first_frame);
     driver.add_observer(*progress);
   }
 
@@ -303,6 +306,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
   }
   const SignalRequests signals;
   mpi::agree_on_errors(comm, set_wait_limit);
+  if (comm.is_root()) tell_of_slow_starts(options.common);
   std::optional<core::Awaited> awaited("all ranks to read the scene");
   Work work = options.run.resume ? resumed_work(comm, args, options) : new_work(comm, options);
   Cut cut = decompose(work.spec, mpi::space_costs(model::make_space_map(*work.first_world)), comm.size());
@@ -310,6 +314,7 @@ ExitCode run_pbmpi(const mpi::Communicator& comm, const std::vector<std::string>
   work.spec.groups = std::move(cut.groups);
   awaited.reset();
   if (options.action == Action::run) return simulate(comm, options, std::move(work), signals, start_s);
+  const core::Awaited description("root to build all worlds and describe them");
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root()) say(describe(work, comm.size()));
   });

@@ -19,6 +19,7 @@ std::array<char, 80> waiter = {"this process"};
 std::array<char, 400> awaited{};
 unsigned limit_s = 1800;
 time_t since_s = 0;
+unsigned first_word_s = 0;   ///< after `since_s`; 0: none
 unsigned next_notice_s = 0;  ///< after `since_s`
 unsigned end_s = 0;          ///< after `since_s`
 int end_signal = 0;          ///< 0: end with an exit code
@@ -73,6 +74,12 @@ class Line {
 extern "C" void tell(int) {
   const auto waited_s = static_cast<unsigned>(whole_now_s() - since_s);
   if (waited_s >= end_s) give_up(waited_s);
+  const bool is_early = first_word_s > 0 && waited_s < next_notice_s;
+  if (is_early) {
+    Line line;
+    line << waiter.data() << " waits for " << awaited.data() << ": " << waited_s << " s so far\n";
+    line.print();
+  }
   if (waited_s >= next_notice_s) {
     Line line;
     line << waiter.data() << " has waited " << waited_s << " s for " << awaited.data()
@@ -83,14 +90,14 @@ extern "C" void tell(int) {
   alarm(std::max(std::min(next_notice_s, end_s) - waited_s, 1U));
 }
 
-/// The first alarm comes after `next_notice_s`.
-void switch_on() noexcept {
+/// The first alarm comes after `first_s`.
+void switch_on(unsigned first_s) noexcept {
   struct sigaction action {};
   action.sa_handler = tell;
   action.sa_flags = SA_RESTART;
   sigfillset(&action.sa_mask);
   sigaction(SIGALRM, &action, nullptr);
-  alarm(next_notice_s);
+  alarm(first_s);
 }
 
 void begin_wait(std::string_view what) {
@@ -100,7 +107,7 @@ void begin_wait(std::string_view what) {
   end_s = limit_s;
   end_signal = 0;
   next_notice_s = std::clamp(limit_s / 4, 1U, usual_first_s);
-  switch_on();
+  switch_on(first_word_s > 0 ? std::min(first_word_s, next_notice_s) : next_notice_s);
 }
 
 }  // namespace
@@ -119,6 +126,8 @@ Awaited::~Awaited() {
 
 void set_waiter(std::string_view name) { copy_text(name, waiter); }
 
+void set_first_word(int seconds) { first_word_s = static_cast<unsigned>(std::max(seconds, 0)); }
+
 void set_wait_limit(int seconds) { limit_s = static_cast<unsigned>(std::max(seconds, 1)); }
 
 void begin_deadline(const char* what, unsigned seconds, int signal) noexcept {
@@ -127,7 +136,7 @@ void begin_deadline(const char* what, unsigned seconds, int signal) noexcept {
   since_s = whole_now_s();
   end_s = next_notice_s = seconds;
   end_signal = signal;
-  switch_on();
+  switch_on(seconds);
 }
 
 void end_deadline() noexcept {

@@ -28,6 +28,10 @@ void set_waiter(std::string_view name);
 /// is half an hour.
 void set_wait_limit(int seconds);
 
+/// From now on the first line comes after `seconds`, and says only what the wait is for: the user of a
+/// program that begins slowly then knows what it does. 0: it comes with the other lines.
+void set_first_word(int seconds);
+
 /// Ends the process by `signal` after `seconds` unless end_deadline() is called before; `what`, a string that
 /// stays valid, is named on stderr as what did not happen. Replaces an Awaited. Async-signal-safe.
 void begin_deadline(const char* what, unsigned seconds, int signal) noexcept;

@@ -2,6 +2,7 @@
 import csv
 import os
 import shutil
+import subprocess
 import sys
 import unittest
 
@@ -9,7 +10,7 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import BIN, ProgramTest  # noqa: E402
+from harness import BIN, TIMEOUT_S, ProgramTest  # noqa: E402
 
 FAST = ["--frames", 2, "--repeats", 2, "--floor-seeds", 2]
 NOT_MEASURED = b"refused"
@@ -44,6 +45,14 @@ class Effects(ProgramTest):
         self.assertTrue((one["time_with"][measured] > 0).all())
         self.assertTrue(np.isnan(one["time_with"][~measured]).all())
         self.assertTrue((one["drift_body_position_bands"].sum(axis=1)[measured & (one["scene"] == b"CrashSk")] == 37).all())
+
+    def test_progress_counts_the_cases_of_all_ranks(self):
+        command = ["mpirun", "-n", "2", os.path.join(BIN, "pbstudy"), "effects", "--scene", "CrashSk", "--stepper", "sor", *map(str, FAST),
+                   "--progress", "always", "--quiet", "--output", "study.h5"]
+        shown = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=TIMEOUT_S, check=True).stderr
+        with h5py.File(self.path("study.h5")) as file:
+            cases = len(file["cases/scene"])
+        self.assertRegex(shown.strip().splitlines()[-1], rf"^pbstudy: .*; {cases} of {cases} cases done, \d+ s, about 0 s left *$")
 
     def test_unneeded_effects_change_no_bit_and_what_is_left_out_is_what_pbmpi_leaves_out(self):
         table = self.made(2, "study.h5", "--scene", "CrashSk", *FAST)

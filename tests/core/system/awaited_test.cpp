@@ -30,6 +30,19 @@ TEST(AwaitedDeathTest, names_what_a_process_waits_for_and_ends_it_after_the_limi
               "pbmpi: rank 3 waited 2 s for all ranks to create run.h5 and ends here");
 }
 
+TEST(AwaitedDeathTest, says_what_a_program_begins_with_before_anything_is_amiss) {
+  const auto wait = [] {
+    set_waiter("pbmpi: rank 0");
+    set_wait_limit(12);
+    set_first_word(1);
+    const Awaited awaited("all ranks to read the scene");
+    usleep(1500000);
+    _exit(0);
+  };
+  EXPECT_EXIT(wait(), testing::ExitedWithCode(0),
+              "^pbmpi: rank 0 waits for all ranks to read the scene: 1 s so far\n$");
+}
+
 TEST(AwaitedDeathTest, goes_on_with_the_outer_wait_when_the_inner_one_is_over) {
   const auto wait = [] {
     set_wait_limit(1);

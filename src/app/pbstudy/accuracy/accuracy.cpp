@@ -1,6 +1,8 @@
 #include <iostream>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "app/pbstudy/accuracy/accuracy_table.h"
 #include "app/pbstudy/accuracy/nature_rows.h"
 #include "app/pbstudy/accuracy/own_solution.h"
@@ -27,7 +29,10 @@ AccuracyOutcomes run_cases(const AccuracyOptions& options, const std::vector<Acc
     const AccuracyCase& one = cases[i];
     const StudyScene& scene = runner.scene(one.scene);
     if (one.scene != scene_of_nature) {
-      nature = find_nature(scene, options.nature);
+      nature = find_nature(scene, options.nature, [&](int frame, int steps) {
+        runner.show_progress(fmt::format("{}: nature, frame {} of {}, {} steps", scene.source.name, frame + 1,
+                                         scene.total_frames(), steps));
+      });
       rest.emplace(scene, resting_settings(scene, options.nature), options.rest_s);
       own.emplace(scene, *nature, cases, options);
       scene_of_nature = one.scene;

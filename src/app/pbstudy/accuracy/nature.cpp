@@ -16,8 +16,8 @@ using analysis::PoseErrors;
 /// Does frames of a scene by one way, with any number of steps.
 class WayStepper {
  public:
-  WayStepper(Way way, const StudyScene& scene, const NatureLimits& limits)
-      : way_(way), scene_(scene), limits_(limits) {}
+  WayStepper(Way way, const StudyScene& scene, const NatureLimits& limits, const NatureListener& tell)
+      : way_(way), scene_(scene), limits_(limits), tell_(tell) {}
 
   /// A frame from `start`, with ever more steps until twice as many move little, or more are not allowed.
   WayEnds advance(const States& start, int frame) {
@@ -35,6 +35,7 @@ class WayStepper {
   static constexpr double nine_tenths = 0.9;
 
   States run(const States& start, int frame, int steps) {
+    if (tell_) tell_(frame, steps);
     std::unique_ptr<CaseStepper>& stepper = steppers_[steps];
     if (!stepper) {
       const stepping::StepperSettings settings = settings_of(way_, scene_.frame_s / steps, limits_);
@@ -49,6 +50,7 @@ class WayStepper {
   Way way_;
   const StudyScene& scene_;
   const NatureLimits& limits_;
+  const NatureListener& tell_;
   std::map<int, std::unique_ptr<CaseStepper>> steppers_;  ///< by steps of a frame
 };
 
@@ -101,12 +103,12 @@ std::vector<double> distances_m(const States& a, const States& b) {
   return distances;
 }
 
-Nature find_nature(const StudyScene& scene, const NatureLimits& limits) {
+Nature find_nature(const StudyScene& scene, const NatureLimits& limits, const NatureListener& tell) {
   Nature nature;
   nature.worlds = build_worlds(scene, scene.dt_s, limits.seed);
   nature.states.emplace_back();
   for (const auto& model : nature.worlds) nature.states.back().push_back(model::initial_state(*model));
-  WayStepper soft(Way::soft, scene, limits), ode(Way::ode, scene, limits);
+  WayStepper soft(Way::soft, scene, limits, tell), ode(Way::ode, scene, limits, tell);
   for (int frame = 0; frame < scene.total_frames(); ++frame) {
     const double start_s = core::thread_cpu_s();
     NatureFrame found;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <string_view>
 #include <vector>
 
@@ -61,7 +62,10 @@ struct Nature : Reference {
   /// [num_worlds] The end of measured frame `i`.
   const States& end(std::size_t i) const { return states[states.size() - frames.size() + i]; }
 };
-Nature find_nature(const StudyScene& scene, const NatureLimits& limits);
+
+/// Hears of each run of a frame before it begins.
+using NatureListener = std::function<void(int frame, int steps)>;
+Nature find_nature(const StudyScene& scene, const NatureLimits& limits, const NatureListener& tell = {});
 
 /// Lengths [m] for which a user may ask. A body is determined for one if nature is known to a tenth of it.
 inline constexpr std::array<double, 3> asked_m = {1e-3, 1e-2, 1e-1};

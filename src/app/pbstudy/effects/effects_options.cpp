@@ -65,7 +65,7 @@ Manual effects_manual() {
       .basic = {"scene", "effect", "stepper", "precision", "replicas", "frames", "repeats", "floor-seeds",
                 "output", "max-time", "resume"},
       .notes =
-          {"The cases are dealt out over the ranks; a rank works on one at a time. More ranks than cores "
+          {"A rank works on one case at a time, and takes the next when it is done. More ranks than cores "
            "spoil the times. Instructions are counted by the processor's counter where Linux gives it "
            "(perf_event_open), or under callgrind (jobs/effects.sh --instructions); else they are not "
            "in the file."},

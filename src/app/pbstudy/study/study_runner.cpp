@@ -19,14 +19,10 @@ namespace pbmpi::app {
 
 using io::Parameter;
 
-namespace {
-
-constexpr int failure_tag = 1;
-
-}  // namespace
-
 StudyRunner::StudyRunner(const mpi::Communicator& comm, std::string name, const StudyOptions& options)
     : comm_(comm), name_(std::move(name)), options_(options), start_s_(core::now_s()) {
+  if (comm.is_root()) tell_of_slow_starts(options.common);
+  const core::Awaited all_ranks("all ranks to read the scenes");
   for (const std::string& scene : options.scenes)
     scenes_.push_back(study_scene(engines::share_scene(comm, scene), options.overrides));
   require_distinct_names();
@@ -34,7 +30,8 @@ StudyRunner::StudyRunner(const mpi::Communicator& comm, std::string name, const 
     for (const StudyScene& scene : scenes_)
       for (const std::string& note : scene.notes) std::cerr << "pbstudy: note: " << note << '\n';
   }
-  if (comm.is_root() && wants_progress(options.common)) progress_.emplace(std::cerr);
+  const ProgressForm form = progress_form(options.common);
+  if (comm.is_root() && form != ProgressForm::none) progress_.emplace(std::cerr, form);
 }
 
 void StudyRunner::require_distinct_names() const {
@@ -55,6 +52,9 @@ void StudyRunner::open_output(const std::function<void()>& check) {
     writer_ = std::make_unique<io::TableWriter>(options_.output);
   });
   provenance_ = collect_provenance(comm_, options_.command_line);
+  constexpr int num_threads = 1;
+  if (comm_.is_root() && !options_.common.quiet)
+    std::cerr << shared_processors_warning("pbstudy", provenance_, num_threads) << std::flush;
 }
 
 /// Hash of what decides the outcomes of the cases, except for the machine.
@@ -97,35 +97,51 @@ void StudyRunner::open_journal(std::uint64_t layout, std::size_t num_cases) {
 }
 
 bool StudyRunner::is_to_stop() const {
-  for (int rank = 0; rank < comm_.size(); ++rank) {
-    if (rank != comm_.rank() && failures_.has(rank, failure_tag)) return true;
-  }
   return stop_.is_set() || (options_.max_time_s && core::now_s() - start_s_ >= *options_.max_time_s);
 }
 
-void StudyRunner::tell_of_failure() {
-  for (int rank = 0; rank < comm_.size(); ++rank) {
-    if (rank != comm_.rank()) failures_.post({}, rank, failure_tag);
-  }
-}
-
-void StudyRunner::require_all_done(std::size_t num_left_out) const {
-  std::array<std::int64_t, 1> left = {static_cast<std::int64_t>(num_left_out)};
-  comm_.allreduce(left, mpi::Reduce::sum);
-  if (left[0] == 0) return;
+void StudyRunner::require_all_done() const {
+  std::array<std::int64_t, 1> done = {own_done_};
+  comm_.allreduce(done, mpi::Reduce::sum);
+  const std::int64_t left = num_to_do_ - done[0];
+  if (left == 0) return;
   throw StudyStopped{
       fmt::format("stopped with {} of {} cases left; the others are kept beside {}: the same command with "
                   "--resume goes on",
-                  left[0], is_kept_.size(), options_.output)};
+                  left, is_kept_.size(), options_.output)};
 }
 
 void StudyRunner::case_done(int scene) {
   ++own_done_;
+  done_->next();
+  show_progress(this->scene(scene).source.name);
+}
+
+void StudyRunner::show_progress(const std::string& what) {
   if (!progress_) return;
-  progress_->show(own_done_ == own_cases_, [&] {
-    return fmt::format("pbstudy: case {} of {} on this rank ({})", own_done_, own_cases_,
-                       this->scene(scene).source.name);
+  const std::int64_t done = done_->value();
+  progress_->show(done == num_to_do_, [&] {
+    const double elapsed_s = core::now_s() - start_s_;
+    std::string text =
+        fmt::format("pbstudy: {}; {} of {} cases done, {:.0f} s", what, done, num_to_do_, elapsed_s);
+    if (done > 0)
+      text += fmt::format(", about {:.0f} s left",
+                          elapsed_s / static_cast<double>(done) * static_cast<double>(num_to_do_ - done));
+    return text;
   });
+}
+
+std::vector<std::size_t> StudyRunner::cases_to_do(const std::vector<int>& scene,
+                                                  const std::vector<double>& cost) const {
+  std::vector<std::size_t> order;
+  order.reserve(cost.size());
+  for (std::size_t i = 0; i < cost.size(); ++i) {
+    if (is_kept_[i] == 0) order.push_back(i);
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return scene[a] != scene[b] ? scene[a] < scene[b] : cost[a] > cost[b];
+  });
+  return order;
 }
 
 io::TableFile study_file(const std::string& study, const Provenance& provenance, std::uint64_t seed,

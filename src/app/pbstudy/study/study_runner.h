@@ -1,4 +1,4 @@
-/// Runs a study of any kind of cases: scenes, cases dealt out over the ranks, results, the file.
+/// Runs a study of any kind of cases: scenes, cases that ranks take one by one, results, the file.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +20,9 @@
 #include "app/pbstudy/study/study_scene.h"
 #include "core/error.h"
 #include "io/table/table_file.h"
-#include "mpi/balance/partition.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
-#include "mpi/comm/mail.h"
+#include "mpi/comm/shared_counter.h"
 
 namespace pbmpi::app {
 
@@ -60,14 +59,17 @@ class StudyRunner {
   /// Makes sure before the work begins that the file can be written, if `check` (on root) throws nothing.
   void open_output(const std::function<void()>& check = {});
 
-  /// Runs cases, one at a time and in their order, with run_case(index), which gives a CaseOutcome, or a
-  /// Result; all ranks get the outcomes of all cases, in their order. A case has a `scene`. Cases are dealt
-  /// out over the ranks by cost_of(case), in any unit, the dearest first. Outcomes are kept in a journal
-  /// beside the output until write(); with --resume, cases already in it are not run again. If `run_case`
-  /// throws on one rank, or it cannot write its journal, all ranks throw after the cases at hand;
-  /// StudyStopped if a rank was asked to stop, or the time is up.
+  /// Runs cases, one at a time, with run_case(index), which gives a CaseOutcome, or a Result; all ranks get
+  /// the outcomes of all cases, in their order. A case has a `scene`. A rank that is done with a case takes
+  /// the next: scene by scene, and the dearest by cost_of(case), in any unit, first. Outcomes are kept in a
+  /// journal beside the output until write(); with --resume, cases already in it are not run again. If
+  /// `run_case` throws on one rank, all ranks throw; StudyStopped if a rank was asked to stop, or the time is
+  /// up.
   template <class Result, class... Rows, class Case, class CostOf, class RunCase>
   CaseOutcomes<Result, Rows...> run(const std::vector<Case>& cases, CostOf&& cost_of, RunCase&& run_case);
+
+  /// On root, where progress is shown: what its case does just now, e.g. "CrashSk: nature, frame 3 of 8".
+  void show_progress(const std::string& what);
 
   /// Root writes the result of `content` (called on root), and prints the file's path.
   void write(const std::function<StudyContent()>& content);
@@ -81,13 +83,12 @@ class StudyRunner {
   void open_journal(std::uint64_t layout, std::size_t num_cases);
   std::uint64_t key_of(std::uint64_t layout) const;
   bool is_to_stop() const;
-  /// Lets the other ranks stop after their cases at hand: this one has failed.
-  void tell_of_failure();
-  /// Collective. Throws StudyStopped if any rank left out cases.
-  void require_all_done(std::size_t num_left_out) const;
+  /// Collective. Throws StudyStopped if cases were left out.
+  void require_all_done() const;
+  /// The cases that are not kept, in the order in which ranks take them. `scene`, `cost`: [num_cases].
+  std::vector<std::size_t> cases_to_do(const std::vector<int>& scene, const std::vector<double>& cost) const;
 
   const mpi::Communicator& comm_;
-  mpi::Mail failures_{comm_};  ///< an empty message from each rank that has failed
   std::string name_;
   const StudyOptions& options_;
   std::vector<StudyScene> scenes_;
@@ -98,8 +99,10 @@ class StudyRunner {
   std::unique_ptr<CaseJournal> journal_;
   std::map<std::int64_t, std::vector<std::byte>> kept_;  ///< on root: outcomes of an earlier run
   std::vector<char> is_kept_;                            ///< [num_cases]
-  std::optional<ProgressLine> progress_;  ///< on root, for its own cases, which stand for the others'
-  std::size_t num_cases_ = 0, own_cases_ = 0, own_done_ = 0;
+  std::optional<ProgressLine> progress_;                 ///< on root
+  std::unique_ptr<mpi::SharedCounter> done_;             ///< cases of all ranks
+  std::size_t num_cases_ = 0;
+  std::int64_t num_to_do_ = 0, own_done_ = 0;
 };
 
 template <class Result, class... Rows, class Case, class CostOf, class RunCase>
@@ -107,41 +110,37 @@ CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, C
                                                RunCase&& run_case) {
   std::vector<double> cost(cases.size());
   std::ranges::transform(cases, cost.begin(), cost_of);
-  const std::vector<int> owner = mpi::lpt_placement(cost, comm_.size());
+  std::vector<int> scene(cases.size());
+  std::ranges::transform(cases, scene.begin(), &Case::scene);
   std::uint64_t layout = sizeof(Result);
   ((layout = 31 * layout + sizeof(Rows)), ...);
   open_journal(layout, cases.size());
   num_cases_ = cases.size();
-  for (std::size_t i = 0; i < owner.size(); ++i)
-    own_cases_ += owner[i] == comm_.rank() && is_kept_[i] == 0 ? 1 : 0;
-  std::size_t num_left_out = 0;
+  const std::vector<std::size_t> to_do = cases_to_do(scene, cost);
+  num_to_do_ = std::ssize(to_do);
+  mpi::SharedCounter taken(comm_);
+  done_ = std::make_unique<mpi::SharedCounter>(comm_);
   CaseOutcomes<Result, Rows...> own = mpi::agree_on_errors(comm_, [&] {
     CaseOutcomes<Result, Rows...> outcomes;
     for (const auto& [index, bytes] : kept_) outcomes.append(outcome_of<Result, Rows...>(bytes));
-    for (std::size_t i = 0; i < owner.size(); ++i) {
-      if (owner[i] != comm_.rank() || is_kept_[i] != 0) continue;
-      if (is_to_stop()) {
-        ++num_left_out;
-        continue;
-      }
-      try {
-        CaseOutcome<Result, Rows...> outcome{run_case(i)};
-        outcome.set_index(static_cast<int>(i));
-        journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
-        outcomes.append(outcome);
-      } catch (...) {
-        tell_of_failure();
-        throw;
-      }
+    while (!is_to_stop()) {
+      const std::int64_t next = taken.next();
+      if (next >= num_to_do_) break;
+      const std::size_t i = to_do[static_cast<std::size_t>(next)];
+      CaseOutcome<Result, Rows...> outcome{run_case(i)};
+      outcome.set_index(static_cast<int>(i));
+      journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
+      outcomes.append(outcome);
       case_done(cases[i].scene);
     }
     return outcomes;
   });
+  show_progress(name_);
   progress_.reset();
-  require_all_done(num_left_out);
+  require_all_done();
   CaseOutcomes<Result, Rows...> all;
   all.results = comm_.allgatherv(std::span<const Result>(own.results));
-  core::require_invariant(all.results.size() == owner.size(), "every case has one result");
+  core::require_invariant(all.results.size() == cases.size(), "every case has one result");
   std::ranges::sort(all.results, {}, &Result::index);
   [[maybe_unused]] const auto gather_rows = [&]<class Row>(std::vector<Row>& rows,
                                                            const std::vector<Row>& mine) {
