@@ -44,8 +44,12 @@ void require_sound_files(const std::vector<std::string>& args) {
 }  // namespace
 
 std::string report_of_study_in(const std::vector<std::string>& args) {
-  for (const std::string& arg : args) {
-    if (arg.empty() || arg.front() == '-' || io::filetype_of(arg) != io::study_filetype) continue;
+  for (std::size_t i = 0; i < args.size(); ++i) {
+    const std::string& arg = args[i];
+    const bool is_beside =
+        i > 0 && args[i - 1] == "--hard-cases";  // another study, which the report looks up
+    if (is_beside || arg.empty() || arg.front() == '-' || io::filetype_of(arg) != io::study_filetype)
+      continue;
     const std::string study = io::root_text(arg, "study");
     core::require_input(study != "prediction",
                         arg + ": a study of prediction; jobs/paper/paper.py prediction FILE shows it");

@@ -11,7 +11,7 @@ import textwrap
 from reports import document, page
 from reports.files import BadInput, WriteError, require, write_file
 
-UNITS = {"time": {"us": 1e-6, "ms": 1e-3, "s": 1.0}, "length": {"mm": 1e-3, "cm": 1e-2, "m": 1.0}}
+UNITS = {"time": {"us": 1e-6, "ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}, "length": {"mm": 1e-3, "cm": 1e-2, "m": 1.0}}
 WRITTEN = ("html", "csv", "output", "write_config")  # options that name a file to write
 
 

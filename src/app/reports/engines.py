@@ -130,18 +130,27 @@ def counts_text(counts):
     return ", ".join(f"{count} {verdict}" for verdict, count in counts.items() if count) or "-"
 
 
+NOTHING_STANDS = "none that stays finite and holds the scene at rest"
+
+
+def front_columns(yardstick):
+    """Of (engine, one): a setting of the engine's front, or None where nothing stands."""
+    def of_setting(header, cell, otherwise="-"):
+        return Column(header, lambda row: cell(row[1]) if row[1] else otherwise)
+
+    return (Column("engine", lambda row: row[0].name),
+            of_setting("worst frame [ms]", lambda one: f"{1e3 * one.time_s:.3g}"),
+            of_setting("error rms [mm]", lambda one: millimetres(yardstick.error_m(one))),
+            of_setting("joint gap [mm]", lambda one: millimetres(one.joint_gap_m)),
+            of_setting("depth [mm]", lambda one: millimetres(one.penetration_m)),
+            of_setting("setting (substeps x iterations)", lambda one: one.setting(), NOTHING_STANDS))
+
+
 def front_table(scene, yardstick):
     text = (f"Each engine's front; nature is known to {millimetres(scene.uncertainty_m)} mm." if yardstick is NATURE
             else "Each engine's front; errors of two engines are not to be compared here.")
-    rows = []
-    for engine in scene.engines:
-        front = engine.front(yardstick)
-        rows += [[engine.name, f"{1e3 * one.time_s:.3g}", millimetres(yardstick.error_m(one)), millimetres(one.joint_gap_m),
-                  millimetres(one.penetration_m), one.setting()] for one in front]
-        if not front:
-            rows.append([engine.name, "-", "-", "-", "-", "none that stays finite and holds the scene at rest"])
-    header = ["engine", "worst frame [ms]", "error rms [mm]", "joint gap [mm]", "depth [mm]", "setting (substeps x iterations)"]
-    return Table(f"{scene.name}: error against {yardstick.name}, and time", header, rows, text)
+    rows = [(engine, one) for engine in scene.engines for one in engine.front(yardstick) or [None]]
+    return Table.of(f"{scene.name}: error against {yardstick.name}, and time", front_columns(yardstick), rows, text=text)
 
 
 OWN_COLUMNS = (Column("engine", lambda one: one.name), Column("settings", lambda one: str(len(one.settings))),

@@ -3,6 +3,7 @@ import contextlib
 import dataclasses
 import errno
 import os
+import pathlib
 import signal
 import stat
 import tempfile
@@ -155,8 +156,8 @@ def write_file(path, text):
     data = (part.encode("utf-8", "replace") for part in ([text] if isinstance(text, str) else text))
     try:
         require(not os.path.isdir(path) and not path.endswith("/"), f"{path}: it is a folder; name a file to write")
+        require(not pathlib.Path(path).is_block_device(), f"{path}: it is a block device, whose content a file would overwrite; name a file to write")
         number = own_output(path)
-        require(not os.path.exists(path) or not stat.S_ISBLK(os.stat(path).st_mode), f"{path}: it cannot be written: it is a device")
         if number is not None or (os.path.exists(path) and not os.path.isfile(path)):
             with open(open_stream(path) if number is None else number, "wb", closefd=number is None) as stream:
                 stream.writelines(data)

@@ -81,6 +81,16 @@ class Engines(ProgramTest):
             self.assertEqual(sum(one["all"].values()), 3)
         self.assertGreater(found["hard_cases"][1]["all"]["pass"], found["hard_cases"][0]["all"]["pass"], "sor holds more than quick")
 
+    def test_a_study_is_found_wherever_its_hard_cases_stand(self):
+        self.study("stability", "s.h5", *CASES)
+        self.study("accuracy", "a.h5", "--scene", "CrashSk", "--stepper", "quick", "--iterations", "2", "--dt", "10ms", "--frames", "1",
+                   "--repeats", "1", "--estimates", "0", "--floor-seeds", "1", "--nature-steps", "6", "--rest-seconds", "0",
+                   "--own-iterations", "0")
+        texts = [self.report(*args).stdout for args in (("a.h5", "--hard-cases", "s.h5"), ("--hard-cases", "s.h5", "a.h5"),
+                                                        ("--hard-cases=s.h5", "a.h5"))]
+        self.assertIn("CrashSk", texts[0])
+        self.assertEqual(texts, [texts[0]] * 3)
+
     def test_what_an_engine_takes_otherwise_is_what_describe_says(self):
         if "not in this build" in " ".join(self.pbmpi(1, "--help", "all").stdout.split()):
             self.skipTest("this build lacks an engine")

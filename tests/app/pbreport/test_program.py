@@ -7,7 +7,10 @@ import unittest
 import xml.etree.ElementTree
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import PBREPORT, ProgramTest  # noqa: E402
+from harness import BIN, PBREPORT, ProgramTest  # noqa: E402
+
+
+PBSTUDY = os.path.join(BIN, "pbstudy")
 
 
 class ReportTest(ProgramTest):
@@ -83,6 +86,19 @@ class ReportTest(ProgramTest):
         self.run_scene()
         self.assert_refused(self.report("run.h5", "--html", "no/folder/x.html"), "no/folder/x.html")
         self.assert_refused(self.report("run.h5", "--html", "run.h5"), "run.h5")
+
+    def test_a_place_that_takes_no_more_is_a_failure(self):
+        disk = self.small_disk("8k")
+        self.run_scene()
+        study = [PBSTUDY, "effects", "--scene", "CrashSk", "--effect", "friction", "--frames", "1", "--repeats", "1", "-o", "study.h5", "-q"]
+        self.assertEqual(self.run_command(study).returncode, 0)
+        for args in (["run.h5", "--html", f"{disk}/x.html"], ["csv", "run.h5", "-o", f"{disk}/x.csv"], ["csv", "run.h5", "-o", "/dev/full"],
+                     ["diff", "run.h5", "run.h5", "-o", f"{disk}/x.h5"], ["diff", "run.h5", "run.h5", "--html", f"{disk}/x.html"],
+                     ["study.h5", "--csv", "/dev/full"], ["study.h5", "--html", f"{disk}/x.html"]):
+            result = self.report(*args)
+            self.assertEqual((result.returncode, len(result.stderr.splitlines())), (1, 1), (args, result.stderr))
+            self.assertIn("it cannot be written: No space left on device", result.stderr)
+            self.assertEqual(os.listdir(disk), [], "nothing is left behind")
 
 
 if __name__ == "__main__":

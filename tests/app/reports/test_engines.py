@@ -72,6 +72,16 @@ class Report(unittest.TestCase):
         self.assertEqual([one["setting"] for one in quick["own_front"]], ["quick, 1, dt 0.01 s"])
         self.assertEqual((quick["settings"], quick["felled"], sor["not_finite"], sor["nature_front"]), (3, 1, 1, []))
 
+    def test_each_number_of_a_front_stands_under_its_heading(self):
+        rows = [case_of("quick", 1, 10, 1, joint_gap=0.02, penetration=0.03), case_of("sor", 1, 20, 9, **BLOWN_UP)]
+        scene = engines.Engines(studies(accuracy=(rows, OF_ACCURACY)), []).scenes[0]
+        table = engines.front_table(scene, engines.NATURE)
+        quick, sor = (dict(zip(table.header, row)) for row in table.rows)
+        self.assertEqual(quick, {"engine": "quick", "worst frame [ms]": "1", "error rms [mm]": "10", "joint gap [mm]": "20", "depth [mm]": "30",
+                                 "setting (substeps x iterations)": "quick, 1, dt 0.01 s"})
+        self.assertEqual((sor["engine"], sor["worst frame [ms]"], sor["setting (substeps x iterations)"]),
+                         ("sor", "-", engines.NOTHING_STANDS))
+
     def test_the_own_solution_is_that_whose_noise_was_measured(self):
         quick, sor = json_of(self.found)["scenes"][0]["engines"]
         self.assertEqual({name: round(1e3 * value, 9) for name, value in quick["own_solution"].items()},
