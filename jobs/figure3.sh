@@ -11,7 +11,7 @@ python3-h5py. Up to 10 minutes for all nine scenes.
 
   --quick-look   2-Cars and CrashSk only
   --long         direct of 100CrSk, Battle and CrashWa, too, however long it takes: hours
-  --runs DIR     has the runs of quick with --record-islands (SCENE.h5); else they are recorded into OUTDIR
+  --runs DIR     has the runs of quick with --record islands (SCENE.h5); else they are recorded into OUTDIR
 
 The 3 warm-up and 5 measured frames of each scene run under callgrind, which counts inside the stepper only. Where
 direct is not counted it is extrapolated from the rows of the islands.
@@ -77,7 +77,7 @@ rm -f "$out"/*.callgrind*
 if [[ -z $runs ]]; then
   runs=$out
   for scene in "${quick[@]}"; do
-    "$bin/pbmpi" --scene "$scene" --stepper quick --record-islands --quiet --output "$runs/$scene.h5"
+    "$bin/pbmpi" --scene "$scene" --stepper quick --record islands --quiet --output "$runs/$scene.h5"
   done
 fi
 files=()

@@ -46,7 +46,7 @@ files=()
 for scene in "${scenes[@]}"; do
   echo "$scene"
   # One rank: the serial time is what Figure 6 starts from.
-  "$bin/pbmpi" --scene "$scene" --stepper quick --record-islands --quiet --output "$out/$scene.h5"
+  "$bin/pbmpi" --scene "$scene" --stepper quick --record islands --quiet --output "$out/$scene.h5"
   files+=("$out/$scene.h5")
   [[ $stills == yes ]] || continue
   "$bin/pbreport" "$out/$scene.h5" --quiet --html "$out/$scene.html"

@@ -66,26 +66,26 @@ echo "Figure 6, Tables 1 and 2"
 
 # What else runs on the machine makes some times longer; the least is taken.
 for ((repeat = 2; repeat <= repeats; ++repeat)); do
-  for scene in "${scenes[@]}"; do record "repeats/$scene.$repeat.h5" --scene "$scene" --stepper quick --record-islands; done
+  for scene in "${scenes[@]}"; do record "repeats/$scene.$repeat.h5" --scene "$scene" --stepper quick --record islands; done
 done
 
 if [[ $clock == yes ]]; then
   echo "the steps of ODE"
   for ((repeat = 1; repeat <= repeats; ++repeat)); do
     for scene in "${scenes[@]}"; do
-      record "one_iteration/$scene.$repeat.h5" --scene "$scene" --stepper quick --iterations 1 --record-islands
+      record "one_iteration/$scene.$repeat.h5" --scene "$scene" --stepper quick --iterations 1 --record islands
     done
     for scene in "${direct[@]}"; do
-      record "direct/$scene.$repeat.h5" --scene "$scene" --stepper direct --record-islands
+      record "direct/$scene.$repeat.h5" --scene "$scene" --stepper direct --record islands
     done
     for iterations in ${more_iterations[@]+"${more_iterations[@]}"}; do
-      record "iterations/$iterations.$repeat.h5" --scene CrashWa --stepper quick --iterations "$iterations" --record-islands
+      record "iterations/$iterations.$repeat.h5" --scene CrashWa --stepper quick --iterations "$iterations" --record islands
     done
   done
 fi
 if [[ $clock == yes && $small == no ]]; then
   # One step, before the crash: seconds.
-  record direct/CrashWa.h5 --scene CrashWa --stepper direct --record-islands --warmup 0 --frames 1 --steps-per-frame 1
+  record direct/CrashWa.h5 --scene CrashWa --stepper direct --record islands --warmup 0 --frames 1 --steps-per-frame 1
 fi
 if [[ $small == no ]]; then
   for scene in CrashWa hard/contact/bullets_50; do

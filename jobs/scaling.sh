@@ -147,7 +147,7 @@ for case in "${cases[@]}"; do
   scene=${case%:spaces}
   file=$out/$(name_of_scene "$scene")-islands.h5
   readarray -t limit < <(time_limit)
-  is_complete "$file" || run_until_stopped pbmpi --scene "$scene" --replicas 1 --stepper quick --record-islands \
+  is_complete "$file" || run_until_stopped pbmpi --scene "$scene" --replicas 1 --stepper quick --record islands \
     --frames "$frames" --warmup 3 --quiet --output "$file" "${limit[@]}" || stop $?
 done
 

@@ -118,7 +118,7 @@ CommonTables tables_of(const std::vector<JoinPart>& parts, bool common_only) {
   for (const std::string& name : common.of_some) names += (names.empty() ? "" : ", ") + name;
   core::require_input(common.of_some.empty() || common_only,
                       "not all files have " + names +
-                          " (--record-contacts and its like are to be asked for again with "
+                          " (--record contacts and its like are to be asked for again with "
                           "--resume); --common leaves out what only some have");
   return common;
 }

@@ -172,7 +172,7 @@ void read_frames(hid_t file, RunData& run) {
   }
 }
 
-/// Only a run with --record-islands has profiles.
+/// Only a run with --record islands has profiles.
 void read_profiles(hid_t file, RunData& run) {
   if (H5Lexists(file, "/timings/island", H5P_DEFAULT) <= 0) return;
   const std::int64_t rows = run.frames_committed;

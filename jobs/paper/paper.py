@@ -76,12 +76,12 @@ COMMANDS = (
     ("figures", run_figures, "Figures 8 and 9: frame rates, satisfied frames, and errors against 20 iterations. Several files of one kind are "
                              "repeats, and the time of a frame is the least of them", "runs of jobs/figure8_9.sh", "both figures", False),
     ("figure3", run_figure3, "Figure 3: instructions of a frame. Where direct was not counted it is extrapolated by the rows of the islands of "
-                             "a run of the scene with --record-islands", "figure3.json of jobs/figure3.sh, then runs", "the figure", False),
-    ("figure6", run_figure6, "one page of Figure 6 and Tables 1 and 2", "runs with --record-islands on one rank", "the figure and both tables",
+                             "a run of the scene with --record islands", "figure3.json of jobs/figure3.sh, then runs", "the figure", False),
+    ("figure6", run_figure6, "one page of Figure 6 and Tables 1 and 2", "runs with --record islands on one rank", "the figure and both tables",
      False),
     ("cores", run_cores, "Table 2: the fewest cores on which the islands of a step, longest first, take no longer than the longest of them, "
                          "and the frame rate (share of frames within 3.33 ms) if islands, then also spaces, had a core each",
-     "runs with --record-islands on one rank", "", False),
+     "runs with --record islands on one rank", "", False),
     ("prediction", run_prediction, "what value prediction gains a frame and does to its result", "the file of pbstudy prediction",
      "the bars of Figure 8, hits, errors, and the verdicts", True),
 )

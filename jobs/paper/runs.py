@@ -99,7 +99,7 @@ class Run(runs.Run):
 
 
 def require_profile(run):
-    require(run.profile is not None, f"{run.path}: it has no times of islands; record the run with --record-islands")
+    require(run.profile is not None, f"{run.path}: it has no times of islands; record the run with --record islands")
 
 
 def keep_least(run, repeat):

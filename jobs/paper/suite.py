@@ -1,4 +1,4 @@
-"""Tables 1 and 2 and Figure 6 of the paper: islands, cores and frame rates of its nine scenes, from runs with --record-islands."""
+"""Tables 1 and 2 and Figure 6 of the paper: islands, cores and frame rates of its nine scenes, from runs with --record islands."""
 import dataclasses
 import heapq
 

@@ -1,6 +1,6 @@
 """Recorded steps of pbmpi as problems of contacts with Coulomb's friction: one problem an island.
 
-All follows from what a run's file has (io/SCHEMA.md); docs/siconos.md has the formulas. Needs a run with --record-contacts and
+All follows from what a run's file has (io/SCHEMA.md); docs/siconos.md has the formulas. Needs a run with --record contacts and
 --steps-per-frame 1, so that a step stands between two recorded states."""
 import dataclasses
 
@@ -162,7 +162,7 @@ class Steps:
         parameter = lambda name: file[f"parameters/{name}"][()]
         self.frames = int(file.attrs["frames_committed"])
         if file.attrs["record_every"] != 1 or file.attrs["first_frame"] != 0 or "contacts" not in file:
-            raise ValueError(f"{path}: its contacts or states are not all there; record it with --record-contacts, from the start")
+            raise ValueError(f"{path}: its contacts or states are not all there; record it with --record contacts, from the start")
         if self.frames and file["timings/frame/step"][0] != 1:
             raise ValueError(f"{path}: a frame has several steps; record it with --steps-per-frame 1")
         if "law" not in file["parameters"] or parameter("law") != b"coulomb":

@@ -80,7 +80,7 @@ TEST(Options, those_of_sor_are_refused_with_another_stepper) {
             std::string::npos);
   EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--law", "soft"}).find("--stepper sor"),
             std::string::npos);
-  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--record-residuals"}).find("--stepper sor"),
+  EXPECT_NE(refusal({"--scene", "Fake", "--stepper", "quick", "--record", "residuals"}).find("--stepper sor"),
             std::string::npos);
 }
 
@@ -110,7 +110,7 @@ TEST(Options, sor_starts_with_the_step_that_has_a_memory) {
 
 TEST(Options, residuals_are_of_whole_worlds_and_go_into_the_file) {
   const auto spec = [](std::vector<std::string> more) {
-    std::vector<std::string> args = {"--scene", "Fake", "--stepper", "sor", "--record-residuals"};
+    std::vector<std::string> args = {"--scene", "Fake", "--stepper", "sor", "--record", "residuals"};
     args.insert(args.end(), more.begin(), more.end());
     return resolve(parse_options(args), FakeScene({}));
   };
@@ -185,11 +185,11 @@ TEST(Options, a_frame_may_take_a_tenth_of_one_at_30_Hz_unless_told_otherwise) {
 }
 
 TEST(RunOptions, stand_in_the_file_unless_they_change_neither_it_nor_a_result) {
-  // The scene and its table of parameters have entries of their own; the others say where a run writes, what
-  // it prints, and when it stops.
-  const std::set<std::string_view> others = {"scene",   "parameters",      "output",   "no-output",
-                                             "no-xdmf", "report",          "max-time", "checkpoint",
-                                             "resume",  "checkpoint-every"};
+  // The scene, its table of parameters and what is recorded have entries of their own; the others say where a
+  // run writes, what it prints, and when it stops.
+  const std::set<std::string_view> others = {"scene",   "parameters",       "output",   "no-output",
+                                             "no-xdmf", "report",           "max-time", "checkpoint",
+                                             "resume",  "checkpoint-every", "record"};
   std::set<std::string_view> left_out;
   for (const RunOption& option : run_options()) {
     if (!option.recorded) left_out.insert(option.name);
@@ -321,6 +321,14 @@ TEST(Options, ask_about_a_number_without_a_unit_that_is_probably_meant_in_anothe
   EXPECT_EQ(options.run.checkpoint_every_s, 600);
   EXPECT_EQ(options.run.budget_s, 0.002);
   EXPECT_EQ(options.step.settings.tolerance_m, 0.01);
+}
+
+TEST(Options, record_what_a_list_names) {
+  const Options options = parse_options({"--scene", "Fake", "--record", "residuals,contacts"});
+  EXPECT_EQ(to_text(options.run.records), "contacts,residuals");
+  EXPECT_FALSE(options.run.records.has(Record::islands));
+  EXPECT_EQ(refusal({"--scene", "Fake", "--record", "forces"}),
+            "--record forces: it must be one of islands, contacts, residuals");
 }
 
 TEST(Options, name_a_word_that_stands_alone) {

@@ -52,7 +52,7 @@ class Determinism(ProgramTest):
         alone = self.summary(1, *args, "--no-output")["state_hash"]
         residuals = set()
         for ranks in (1, 2, 3, 4):
-            summary = self.summary(ranks, *args, "--record-residuals", "--output", f"run{ranks}.h5")
+            summary = self.summary(ranks, *args, "--record", "residuals", "--output", f"run{ranks}.h5")
             self.assertEqual(summary["state_hash"], alone, ranks)
             with h5py.File(self.path(f"run{ranks}.h5")) as file:
                 group = file["observables/residual"]

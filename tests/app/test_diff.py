@@ -186,7 +186,7 @@ class Diff(ProgramTest):
         return found
 
     def test_constraints_by_frame_and_by_actor_against_the_recomputation(self):
-        args = ["--scene", "CrashWa", "--frames", 12, "--record-contacts"]
+        args = ["--scene", "CrashWa", "--frames", 12, "--record", "contacts"]
         few = self.record("few.h5", *args, "--iterations", 3)
         many = self.record("many.h5", *args, ranks=2)
         result = self.report("diff", few, many, "--output", "diff.h5", "--html", "diff.html", "--json")

@@ -56,7 +56,7 @@ class Guards(ProgramTest):
                           ("nonfinite", "joint_gap", "energy_gain", "passage", "frozen", "refined")}
 
     def test_the_file_says_what_was_to_be_done(self):
-        self.summary(1, "--scene", "drop.toml", "--frames", 1, "--on-blowup", "freeze", "--record-residuals", "--output", "run.h5")
+        self.summary(1, "--scene", "drop.toml", "--frames", 1, "--on-blowup", "freeze", "--record", "residuals", "--output", "run.h5")
         with h5py.File(self.path("run.h5")) as file:
             self.assertEqual(file["parameters/on_blowup"][()], b"freeze")
             self.assertEqual(file["parameters/record_residuals"][()], 1)
@@ -130,7 +130,7 @@ class Guards(ProgramTest):
             self.assertEqual(summary["estimate"]["position_defect_m"]["max"], 0)
 
     def test_what_cannot_be_had_together_is_refused(self):
-        result = self.pbmpi(1, *RUN, "--on-blowup", "freeze", "--stepper", "quick", "--record-islands")
+        result = self.pbmpi(1, *RUN, "--on-blowup", "freeze", "--stepper", "quick", "--record", "islands")
         self.assertEqual(result.returncode, 2)
         self.assertIn("use --on-blowup report or stop", result.stderr)
         result = self.pbmpi(1, *RUN, "--on-blowup", "panic")

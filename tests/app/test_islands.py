@@ -1,4 +1,4 @@
-"""--record-islands, a scene in one space, and the tables that are made of them."""
+"""--record islands, a scene in one space, and the tables that are made of them."""
 import json
 import unittest
 
@@ -6,7 +6,7 @@ import h5py
 
 from harness import PAPER, PBREPORT, ProgramTest
 
-RECORDED = ("--stepper", "quick", "--record-islands")
+RECORDED = ("--stepper", "quick", "--record", "islands")
 
 
 class Islands(ProgramTest):
@@ -67,8 +67,8 @@ class Islands(ProgramTest):
 
     def test_refusals(self):
         for args, words in (
-                (("--record-islands", "--stepper", "sor"), ("--record-islands", "sor")),
-                ((*RECORDED, "--no-output"), ("--record-islands", "--no-output"))):
+                (("--record", "islands", "--stepper", "sor"), ("--record islands", "sor")),
+                ((*RECORDED, "--no-output"), ("--record islands", "--no-output"))):
             result = self.pbmpi(1, "--scene", "CrashSk", *args)
             self.assertEqual(result.returncode, 2, result.stderr)
             for word in words:
@@ -76,7 +76,7 @@ class Islands(ProgramTest):
         self.summary(1, "--scene", "CrashSk")
         result = self.run_command([*PAPER, "cores", self.path("CrashSk.h5")])
         self.assertEqual(result.returncode, 2)
-        self.assertIn("--record-islands", result.stderr)
+        self.assertIn("--record islands", result.stderr)
         self.summary(2, "--scene", "CrashSk", "--replicas", 2, *RECORDED)
         result = self.run_command([*PAPER, "cores", self.path("CrashSk.h5")])
         self.assertEqual(result.returncode, 2)

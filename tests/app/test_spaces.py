@@ -79,7 +79,7 @@ class Spaces(ProgramTest):
 
     def test_spaces_are_refused_where_they_cannot_be_had(self):
         for args, words in ((["--stepper", "quick"], "add --stepper sor"), (["--stepper", "direct"], "add --stepper sor"),
-                            ([*SOR, "--record-residuals"], "use --decompose worlds")):
+                            ([*SOR, "--record", "residuals"], "use --decompose worlds")):
             result = self.pbmpi(2, "--scene", "Fight", "--decompose", "spaces", *args)
             self.assertEqual(result.returncode, 2, result.stderr)
             lines = [line for line in result.stderr.splitlines() if line.startswith("pbmpi: ")]

@@ -192,7 +192,7 @@ class Run:
     def memory(self, frame, world, first_body, first_geom, joints):
         if "contacts" not in self.file:
             sys.exit(f"judge.py: {self.file.filename}: the hash of this run has the forces of its contacts, which the file lacks; "
-                     "record it with --record-contacts")
+                     "record it with --record contacts")
         words, points = [], self.points(frame)
         for i in np.flatnonzero(points["world"] == world):
             b = points["body_b"][i]

@@ -33,7 +33,7 @@ class Programs:
 
     def record(self, name, *args):
         """The JSON summary of a run."""
-        return json.loads(self.run("pbmpi", *args, "--record-contacts", "--report", "json", "--output", name))
+        return json.loads(self.run("pbmpi", *args, "--record", "contacts", "--report", "json", "--output", name))
 
 
 def assert_run(path, summary):

@@ -191,7 +191,7 @@ class Paper(unittest.TestCase):
 
     def test_repeats_give_the_least_of_their_times(self):
         files = [self.path("files", "figure6", "2-Cars.h5"), self.path("again.h5")]
-        subprocess.run([os.path.join(os.environ["PBMPI_BIN"], "pbmpi"), "--scene", "2-Cars", "--stepper", "quick", "--record-islands",
+        subprocess.run([os.path.join(os.environ["PBMPI_BIN"], "pbmpi"), "--scene", "2-Cars", "--stepper", "quick", "--record", "islands",
                         "--quiet", "--output", files[1]], check=True)
         times = []
         for path in files:
@@ -204,7 +204,7 @@ class Paper(unittest.TestCase):
     def test_what_is_of_no_use_is_refused(self):
         suite = self.path("files", "figure6", "2-Cars.h5")
         other = self.path("other.h5")
-        subprocess.run([os.path.join(os.environ["PBMPI_BIN"], "pbmpi"), "--scene", "2-Cars", "--stepper", "quick", "--record-islands",
+        subprocess.run([os.path.join(os.environ["PBMPI_BIN"], "pbmpi"), "--scene", "2-Cars", "--stepper", "quick", "--record", "islands",
                         "--frames", "1", "--quiet", "--output", other], check=True)
         for args, message in (([suite, other], "different runs"), ([], "no file given"), ([self.path("paper.json")], "no counts"),
                               ([suite, "--json", "--markdown"], "not allowed with"), ([self.path("files", "no")], "no")):

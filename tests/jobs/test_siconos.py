@@ -69,7 +69,7 @@ CHAIN = 'title = "joints of all kinds"\n[[actor]]\nname = "ground"\ntype = "grou
 class Siconos(ProgramTest):
     def record(self, scene, frames, **options):
         settings = REFERENCE | {name.replace("_", "-"): value for name, value in options.items()}
-        done = self.run_command([PBMPI, "--scene", scene, f"--frames={frames}", "--record-contacts", "--output", "run.h5",
+        done = self.run_command([PBMPI, "--scene", scene, f"--frames={frames}", "--record", "contacts", "--output", "run.h5",
                                  *(f"--{name}={value}" for name, value in settings.items())])
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.path("run.h5")

@@ -70,14 +70,14 @@ class Whole(Files):
         self.assertEqual(run.table("worlds").gravity_z.tolist(), [-9.81])
 
     def test_pbreport_tells_the_same(self):
-        self.run_pbmpi("--scene", "CrashSk", "--replicas", 2, "--frames", 2, "--record-contacts", "--output", "run.h5")
+        self.run_pbmpi("--scene", "CrashSk", "--replicas", 2, "--frames", 2, "--record", "contacts", "--output", "run.h5")
         text = self.run_command([PBREPORT, "csv", self.path("run.h5"), "--table", "observables"]).stdout
         lines = list(csv.reader(io.StringIO(text)))
         column = next(place for place, name in enumerate(lines[0]) if name.split()[0] == "energy")
         self.assertEqual([float(line[column]) for line in lines[1:]], self.read("run.h5").worlds.energy.tolist())
 
     def test_rows_that_only_some_runs_have(self):
-        self.run_pbmpi("--scene", "CrashSk", "--frames", 2, "--stepper", "quick", "--record-islands", "--output", "run.h5")
+        self.run_pbmpi("--scene", "CrashSk", "--frames", 2, "--stepper", "quick", "--record", "islands", "--output", "run.h5")
         run = self.read("run.h5")
         self.assertEqual(run.array("timings/island/rows").shape, (5, 37))
         self.assertEqual(run.table("timings/island").index.names, ["frame", "body"])

@@ -45,7 +45,7 @@ Parameter step_parameter(const std::string& prefix, const stepping::StepOption& 
 io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& plan) {
   const RunSpec& spec = work.spec;
   io::OptionalColumns columns;
-  columns.profile = spec.record_islands;
+  columns.profile = spec.records.has(Record::islands);
   columns.estimate = spec.estimate.has_value();
   columns.residuals = spec.stepper.residuals;
   columns.contacts = spec.stepper.contacts;
@@ -114,6 +114,9 @@ std::vector<Parameter> run_parameters(const Work& work, const Provenance& proven
     if (auto value = value_of(option, spec))
       parameters.push_back(parameter_of(stepping::file_name(option.name), *std::move(value)));
   }
+  for (std::size_t i = 0; i < record_names.size(); ++i)
+    parameters.push_back(Parameter::of("record_" + std::string(record_names[i]),
+                                       std::int64_t{spec.records.chosen[i] ? 1 : 0}));
   const scenes::SceneSource scene{work.scene->name(), work.scene->name(), work.scene->text()};
   for (const scenes::SceneSource& base : scenes::bases_of(scene))
     parameters.push_back(Parameter::of(scene_text_parameter(base.name), base.text));

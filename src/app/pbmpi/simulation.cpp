@@ -22,7 +22,7 @@ mpi::WorldRunSettings driver_settings(const RunSpec& spec) {
   settings.dt_s = spec.stepper.dt_s;
   settings.budget_s = spec.budget_s;
   settings.stop_at_blowup = spec.on_blowup == stability::OnBlowup::stop;
-  settings.profile = spec.record_islands;
+  settings.profile = spec.records.has(Record::islands);
   settings.first_frame = spec.checkpoint.first_frame;
   return settings;
 }

@@ -315,7 +315,7 @@ def bodies_table(ensemble, frames):
 
 
 def step_times(run, frames):
-    """{column: [W] s of a step, mean}: collision detection, and a world's islands one after the other; NaN without --record-islands."""
+    """{column: [W] s of a step, mean}: collision detection, and a world's islands one after the other; NaN without --record islands."""
     found = dict.fromkeys(("collide_mean", "solve_mean"), np.full(run.num_worlds, np.nan))
     names = ("timings/space/collide", "timings/island/solve")
     if len(frames) > 0 and all(map(run.has, names)):

@@ -76,7 +76,7 @@ class Interest(ProgramTest):
                       self.pbmpi(1, "--scene", "place.toml", "--describe").stdout)
 
     def test_the_islands_of_a_frame_are_timed_with_their_iterations(self):
-        timed = self.summary(1, *RUN, "--stepper", "quick", "--record-islands", "--output", "timed.h5")
+        timed = self.summary(1, *RUN, "--stepper", "quick", "--record", "islands", "--output", "timed.h5")
         with h5py.File(self.path("timed.h5")) as file:
             self.assertTrue((file["timings/island/solve"][:].sum(axis=1) > 0).all())
         self.assertEqual(self.hash_of(1, "--stepper", "quick"), timed["state_hash"])

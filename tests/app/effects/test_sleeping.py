@@ -62,7 +62,7 @@ class Sleeping(ProgramTest):
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertIn("bad.toml:6:", result.stderr)
             self.assertIn(words, result.stderr)
-        result = self.pbmpi(1, *RUN, "--stepper", "quick", "--record-islands")
+        result = self.pbmpi(1, *RUN, "--stepper", "quick", "--record", "islands")
         self.assertEqual(result.returncode, 2, result.stdout)
         self.assertIn("'sleeping'", result.stderr)
 

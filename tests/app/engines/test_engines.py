@@ -95,9 +95,9 @@ class Engines(ProgramTest):
     def test_contacts_are_recorded_with_forces_that_carry_the_weight(self):
         scene = self.write("box.toml", BOX)
         for engine in self.each():
-            self.summary(1, "--scene", scene, "--stepper", engine, "--frames", 20, "--record-contacts", "--output", "run.h5")
+            self.summary(1, "--scene", scene, "--stepper", engine, "--frames", 20, "--record", "contacts", "--output", "run.h5")
             hashes = {self.summary(ranks, "--scene", "CrashSk", "--replicas", 3, "--stepper", engine, "--frames", 8, *record,
-                                   "--output", "other.h5")["state_hash"] for ranks, record in ((1, []), (2, ["--record-contacts"]))}
+                                   "--output", "other.h5")["state_hash"] for ranks, record in ((1, []), (2, ["--record", "contacts"]))}
             self.assertEqual(len(hashes), 1, "what is recorded moves no bit")
             with h5py.File(self.path("run.h5")) as file:
                 first, count = (file["contacts/frame"][name][-1] for name in ("first", "count"))
@@ -121,7 +121,7 @@ class Engines(ProgramTest):
         for engine in self.each():
             for options, word in ((["--substeps", 4], "--substeps"), (["--law", "soft"], "--law"), (["--threads", 2], "--threads"),
                                   (["--precision", "single"], "--precision"), (["--decompose", "spaces"], "--decompose"),
-                                  (["--record-residuals"], "--record-residuals"), (["--record-islands"], "--record-islands")):
+                                  (["--record", "residuals"], "--record residuals"), (["--record", "islands"], "--record islands")):
                 result = self.pbmpi(2, "--scene", "Fight", "--stepper", engine, *options)
                 self.assertEqual(result.returncode, 2, (options, result.stderr))
                 self.assertIn(word, result.stderr)

@@ -1,4 +1,4 @@
-"""--record-contacts: contacts of each frame's last step, and the forces of contacts and joints."""
+"""--record contacts: contacts of each frame's last step, and the forces of contacts and joints."""
 import os
 import sys
 import unittest
@@ -9,7 +9,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import ODE_LAW, ProgramTest  # noqa: E402
 
-FRAMES = ("--steps-per-frame", 1, "--warmup", 0, "--frames", 40, "--record-contacts", "--quiet")
+FRAMES = ("--steps-per-frame", 1, "--warmup", 0, "--frames", 40, "--record", "contacts", "--quiet")
 # With many substeps velocities change by the forces of all, of which the file has the last.
 STEPPERS = (("--stepper", "direct"), ("--stepper", "quick"), ODE_LAW)
 
@@ -62,7 +62,7 @@ class Contacts(ProgramTest):
 
     def test_the_counts_and_the_deepest_contact_are_those_of_the_observables(self):
         for stepper in (("--stepper", "quick"), ("--stepper", "sor")):
-            with self.recorded("--scene", "CrashSk", *stepper, "--record-contacts", "--quiet") as run:
+            with self.recorded("--scene", "CrashSk", *stepper, "--record", "contacts", "--quiet") as run:
                 seen = run["observables/world"]
                 for frame in range(len(seen["contacts"])):
                     contacts = frame_contacts(run, frame)
@@ -80,7 +80,7 @@ class Contacts(ProgramTest):
             scene = "Battle2" if "spaces" in options else "CrashSk"
             ranks = 2 if "spaces" in options else 1
             hashes = {self.summary(ranks, "--scene", scene, *options, *recording)["state_hash"]
-                      for recording in (("--no-output",), ("--record-contacts", "--output", "run.h5"))}
+                      for recording in (("--no-output",), ("--record", "contacts", "--output", "run.h5"))}
             self.assertEqual(len(hashes), 1, options)
 
     def test_a_step_in_which_a_joint_broke_is_in_the_file(self):
@@ -90,7 +90,7 @@ class Contacts(ProgramTest):
             self.assertTrue(np.all(run["observables/joint/broken_in"][:] >= -1))
 
     def test_without_a_file_there_is_nothing_to_record_into(self):
-        result = self.pbmpi(1, "--scene", "CrashSk", "--record-contacts", "--no-output")
+        result = self.pbmpi(1, "--scene", "CrashSk", "--record", "contacts", "--no-output")
         self.assertEqual(result.returncode, 2)
         self.assertIn("--no-output", result.stderr)
 

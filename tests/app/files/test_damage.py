@@ -11,7 +11,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 from harness import PBREPORT, ProgramTest  # noqa: E402
 
-RECORDED = ("--replicas", 3, "--decompose", "worlds", "--feec", "--record-residuals", "--record-contacts")
+RECORDED = ("--replicas", 3, "--decompose", "worlds", "--feec", "--record", "contacts,residuals")
 
 
 class Damage(ProgramTest):

@@ -173,15 +173,15 @@ class Mutants(ProgramTest):
 
     def test_files_of_runs(self):
         self.assertEqual(self.pbmpi(2, "--scene", "CrashSk", "--replicas", 2, "--decompose", "worlds", "--feec",
-                                    "--record-residuals", "--output", "run.h5", "--quiet").returncode, 0)
+                                    "--record", "residuals", "--output", "run.h5", "--quiet").returncode, 0)
         self.try_files("run.h5", [PBREPORT, "run.h5", "--json"], False)
 
     def test_files_of_runs_that_are_handed_on(self):
-        args = ["--scene", "CrashSk", "--record-contacts", "--quiet"]
+        args = ["--scene", "CrashSk", "--record", "contacts", "--quiet"]
         for more in (["--frames", 3, "--output", "run.h5", "--checkpoint", "run.ck.h5"],
                      ["--frames", 3, "--solver-seed", 2, "--output", "other.h5"]):
             self.assertEqual(self.pbmpi(1, *args, *more).returncode, 0)
-        self.assertEqual(self.pbmpi(1, "--resume", "run.ck.h5", "--frames", 5, "--record-contacts", "--output", "rest.h5",
+        self.assertEqual(self.pbmpi(1, "--resume", "run.ck.h5", "--frames", 5, "--record", "contacts", "--output", "rest.h5",
                                     "--quiet").returncode, 0)
         for command in (["csv", "run.h5"], ["csv", "run.h5", "--table", "contacts"], ["csv", "run.h5", "--table", "events"],
                         ["ensemble", "run.h5", "other.h5", "--json"], ["join", "run.h5", "rest.h5", "-o", "all.h5"]):

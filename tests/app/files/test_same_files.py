@@ -10,8 +10,8 @@ from harness import SCENES, ProgramTest  # noqa: E402
 from same_files import content, differences  # noqa: E402
 
 RANKS = (1, 2, 3, 4)
-CUT = ("--stepper", "sor", "--record-contacts")
-SOR, QUICK = (*CUT, "--record-residuals"), ("--stepper", "quick", "--record-islands", "--record-contacts")
+CUT = ("--stepper", "sor", "--record", "contacts")
+SOR, QUICK = ("--stepper", "sor", "--record", "contacts,residuals"), ("--stepper", "quick", "--record", "islands,contacts")
 # Too few iterations in too long a step: joints gape in each of them, more often than /events has rows.
 COARSE = ("--iterations", 1, "--substeps", 1, "--dt", 0.03, "--frames", 20)
 # Name: options, and the scene of the short form. One world of several spaces is cut at these by 2 ranks and more.

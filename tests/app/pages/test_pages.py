@@ -70,7 +70,7 @@ class Files:
         self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--record-every", 3, "--feec", "--output", "one.h5", "--quiet")
         self.page("run of one world", "one.h5", "--quiet")
         for seed in (1, 2):
-            self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--seed", seed, "--record-contacts", "--output", f"seed{seed}.h5", "--quiet")
+            self.run("pbmpi", "--scene", "CrashSk", "--frames", 6, "--seed", seed, "--record", "contacts", "--output", f"seed{seed}.h5", "--quiet")
         self.page("difference", "diff", "seed1.h5", "seed2.h5")
         for ranks in (1, 2):
             self.run(shutil.which("mpirun"), "-n", ranks, PBMPI, "--scene", "Fight", "--decompose", "spaces", "--frames", 4, "--quiet",
@@ -104,7 +104,7 @@ class Files:
         self.paper_page("figures 8 and 9", "figures", "iter20.h5", "iter1.h5", "feec.h5", "seed.h5")
         scenes = ("2-Cars", "10-Cars", "CrashSk", "CrashWa", "Environ", "Fight")
         for scene in scenes:
-            self.run("pbmpi", "--scene", scene, "--stepper", "quick", "--record-islands", "--output", scene + ".h5", "--quiet")
+            self.run("pbmpi", "--scene", scene, "--stepper", "quick", "--record", "islands", "--output", scene + ".h5", "--quiet")
         counts = {"instructions_per_frame": 2e6, "collision_share": 0.1, "frames": 5,
                   "mix": {"floating point": 0.3, "integer": 0.2, "branch": 0.1, "store": 0.1, "load": 0.3}}
         with open(self.path("figure3.json"), "w", encoding="utf-8") as file:

@@ -77,7 +77,7 @@ class Csv(ProgramTest):
         self.assertEqual(sorted(listed), sorted(["bodies", "observables", "timings", "ranks", "events", "world_results", *more]))
 
     def test_every_table_of_the_file_is_there_with_its_numbers(self):
-        self.run_scene("--record-islands", "--stepper", "quick")
+        self.run_scene("--record", "islands", "--stepper", "quick")
         self.assert_tables("islands", "spaces")
         with h5py.File(self.path("run.h5")) as file:
             self.assert_bits(self.table("run.h5", "--table", "islands").numbers("solve [s]"),
@@ -87,7 +87,7 @@ class Csv(ProgramTest):
         with h5py.File(self.path("run.h5")) as file:
             self.assert_bits(self.table("run.h5", "--table", "estimates").numbers("position_z [m]"),
                              file["estimate/position/value"][:, :, 2].ravel())
-        self.run_scene("--record-contacts", "--record-residuals")
+        self.run_scene("--record", "contacts,residuals")
         self.assert_tables("residuals", "joints", "contacts")
         with h5py.File(self.path("run.h5")) as file:
             observables = self.table("run.h5", "--table", "observables")

@@ -106,7 +106,7 @@ class Ensemble(ProgramTest):
         np.testing.assert_allclose(table["distance_q95"], np.quantile(distance, 0.95, axis=0), rtol=1e-7, atol=1e-13)
 
     def test_contacts_and_times_of_each_world(self):
-        self.summary(1, "--scene", "CrashSk", "--replicas", 2, "--frames", 4, "--stepper", "quick", "--record-islands", "--output", "a.h5")
+        self.summary(1, "--scene", "CrashSk", "--replicas", 2, "--frames", 4, "--stepper", "quick", "--record", "islands", "--output", "a.h5")
         worlds = self.ensemble("a.h5", "--over", "worlds")["worlds"]
         with h5py.File(self.path("a.h5")) as file:
             contacts = file["observables/world/contacts"][3:]

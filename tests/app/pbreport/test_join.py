@@ -107,7 +107,7 @@ class Join(ProgramTest):
         self.assertEqual(summary["frames"]["before"], 0)
 
     def test_three_parts_on_other_ranks_are_the_run_that_was_never_stopped(self):
-        parts = self.run_parts("100CrSk", (3, 5), 9, "--replicas", 3, then=["--record-contacts"])
+        parts = self.run_parts("100CrSk", (3, 5), 9, "--replicas", 3, then=["--record", "contacts"])
         text = self.join(parts[2], parts[0], parts[1])
         self.assertIn("part1.h5: frames 6 to 7, 2 of them taken; ranks is 3", text)
         self.assert_like_whole()
@@ -138,7 +138,7 @@ class Join(ProgramTest):
         self.assert_like_whole()
 
     def test_a_run_that_was_killed_at_any_moment_is_joined_with_the_rest(self):
-        args = ["--scene", "CrashSk", "--replicas", 8, "--record-contacts"]
+        args = ["--scene", "CrashSk", "--replicas", 8, "--record", "contacts"]
         process = self.start(2, *args, "--frames", 100000, "--output", "killed.h5", "--checkpoint", "ck.h5", "--checkpoint-every", 0.5)
         wait_until(lambda: os.path.exists(self.path("ck.h5")), "a checkpoint")
         time.sleep(0.8)
@@ -149,7 +149,7 @@ class Join(ProgramTest):
             killed, saved = int(file.attrs["frames_committed"]), int(saved["parameters/frames_done"][()])
             self.assertGreater(len(file["timings/frame/wall"]), killed, "its datasets are longer than what was written")
         frames = max(killed, saved) + 5 - WARMUP
-        self.summary(1, "--resume", "ck.h5", "--frames", frames, "--record-contacts", "--output", "rest.h5")
+        self.summary(1, "--resume", "ck.h5", "--frames", frames, "--record", "contacts", "--output", "rest.h5")
         text = self.join("killed.h5", "rest.h5")
         self.assertIn(f"killed.h5: frames 0 to {killed - 1}, {saved} of them taken", text)
         self.summary(2, *args, "--frames", frames, "--output", "whole.h5")
@@ -186,14 +186,14 @@ class Join(ProgramTest):
     def test_what_only_some_have_is_refused_or_left_out(self):
         args = ["--scene", "CrashSk", "--replicas", 2]
         self.summary(1, *args, "--frames", 9, "--output", "whole.h5")
-        self.summary(1, *args, "--frames", 3, "--output", "a.h5", "--record-contacts", "--checkpoint", "ck.h5")
+        self.summary(1, *args, "--frames", 3, "--output", "a.h5", "--record", "contacts", "--checkpoint", "ck.h5")
         self.summary(1, "--resume", "ck.h5", "--frames", 9, "--output", "b.h5")
         self.refused("contacts/point", "a.h5", "b.h5")
         self.assertIn("left_out: /contacts/point", self.join("a.h5", "b.h5", "--common"))
         self.assert_like_whole()
         # The other way round the later part has more.
         self.summary(1, *args, "--frames", 3, "--output", "a.h5", "--checkpoint", "ck.h5")
-        self.summary(1, "--resume", "ck.h5", "--frames", 9, "--record-contacts", "--output", "b.h5")
+        self.summary(1, "--resume", "ck.h5", "--frames", 9, "--record", "contacts", "--output", "b.h5")
         self.join("a.h5", "b.h5", "--common")
         self.assert_like_whole()
 

@@ -86,7 +86,7 @@ class Scaling(ProgramTest):
     def test_figure6_stands_beside_and_the_largest_island_bounds(self):
         for ranks in (1, 2):
             run = self.run_point(f"r{ranks}.h5", ranks, "--scene", "Fight", "--decompose", "spaces")
-        self.run_point("islands.h5", 1, "--scene", "Fight", "--stepper", "quick", "--record-islands")
+        self.run_point("islands.h5", 1, "--scene", "Fight", "--stepper", "quick", "--record", "islands")
         point = self.rows(self.scaling("r1.h5", "r2.h5", "islands.h5")["points"])[1]
         self.assertAlmostEqual(point["island_bound"], run["spaces"]["island_bound"], places=9)
         self.assertAlmostEqual(point["root_share"], run["spaces"]["serial_share"], places=9)

@@ -25,7 +25,7 @@ class Coulomb(ProgramTest):
         self.assertEqual(len({self.summary(ranks, *run)["state_hash"] for ranks in (1, 2, 3, 4)}), 1)
 
     def test_it_leaves_far_less_unsolved_than_odes_law_and_the_file_says_which(self):
-        run = ("--scene", "CrashSk", *RUN, "--record-residuals")
+        run = ("--scene", "CrashSk", *RUN, "--record", "residuals")
         self.summary(1, *run, *ODE_LAW, "--output", "ode.h5")
         self.summary(1, *run, *COULOMB, "--output", "coulomb.h5")
         with h5py.File(self.path("ode.h5")) as ode, h5py.File(self.path("coulomb.h5")) as coulomb:

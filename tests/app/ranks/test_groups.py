@@ -27,7 +27,7 @@ def cut(ranks_per_world):
 class Groups(ProgramTest):
     def test_the_file_is_that_of_whole_worlds_for_any_groups(self):
         for scene, options in (("Fight", ("--frames", 6)), ("Battle2", ("--frames", 3, "--precision", "single"))):
-            run = ("--scene", scene, *THREE, *options, "--record-contacts")
+            run = ("--scene", scene, *THREE, *options, "--record", "contacts")
             self.summary(1, *run, "--decompose", "worlds", "--output", "whole.h5")
             whole = content(self.path("whole.h5"))
             self.assertGreater(len(whole), 60, "the columns of the file, with their states and observables")
@@ -147,7 +147,7 @@ class Groups(ProgramTest):
         for args, words in ((("--stepper", "quick", "--decompose", "spaces"), "add --stepper sor"),
                             (("--ranks-per-world", 2, "--decompose", "worlds"), "or give --decompose spaces"),
                             (("--ranks-per-world", 0), "--ranks-per-world 0: it must be at least 1"),
-                            ((*cut(2), "--record-residuals"), "--record-residuals: no rank of a world that is cut"),
+                            ((*cut(2), "--record", "residuals"), "--record residuals: no rank of a world that is cut"),
                             ((*cut(2), "--threads", 2), "--threads 2: a rank steps its part")):
             result = self.pbmpi(2, "--scene", "Fight", "--replicas", 3, *args)
             self.assertEqual(result.returncode, 2, result.stderr)

@@ -20,7 +20,7 @@ std::optional<std::string> why_whole(const RunSpec& spec) {
            "worlds";
   }
   if (spec.stepper.residuals)
-    return "--record-residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
+    return "--record residuals: no rank of a world that is cut has all its rows; use --decompose worlds";
   if (spec.estimate && !traits_of(spec.estimate->kind).cuts_spaces)
     return "--feec=" + std::string(name_of(spec.estimate->kind)) +
            ": a world that is cut is estimated by sor; use --decompose worlds";

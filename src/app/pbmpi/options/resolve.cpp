@@ -1,6 +1,7 @@
 /// Resolves options and the scene's defaults to a run, and refuses impossible ones.
 #include <filesystem>
 #include <regex>
+#include <sstream>
 #include <utility>
 
 #include "app/common/estimate_spec.h"
@@ -9,6 +10,7 @@
 #include "core/error.h"
 #include "engines/optional_engines.h"
 #include "stepping/names.h"
+#include "stepping/option_values.h"
 
 namespace pbmpi::app {
 
@@ -116,9 +118,9 @@ stepping::StepperSettings resolve_step(const stepping::StepChoices& choices, con
   stepping::StepperSettings step =
       settle_step(choices, {defaults.dt_s, defaults.iterations, spec.seed}, "--");
   engines::require_in_build(step.kind, "--stepper " + std::string(name_of(step.kind)));
-  step.profile = spec.record_islands;
-  step.residuals = spec.record_residuals;
-  step.contacts = spec.record_contacts;
+  step.profile = spec.records.has(Record::islands);
+  step.residuals = spec.records.has(Record::residuals);
+  step.contacts = spec.records.has(Record::contacts);
   return step;
 }
 
@@ -126,24 +128,22 @@ stepping::StepperSettings resolve_step(const stepping::StepChoices& choices, con
 void require_recordable(const RunSpec& spec) {
   const stepping::StepperKind kind = spec.stepper.kind;
   const stepping::StepperTraits& traits = traits_of(kind);
-  require_input(!spec.record_islands || traits.profiles_islands,
-                "--record-islands: --stepper " + std::string(name_of(kind)) +
+  const bool has_islands = spec.records.has(Record::islands);
+  require_input(!has_islands || traits.profiles_islands,
+                "--record islands: --stepper " + std::string(name_of(kind)) +
                     (traits.has_lanes ? " solves many islands in one vector and has no time of one; "
                                       : " has no time of single islands; ") +
                     "use quick or direct");
-  require_input(!spec.record_islands || !stability::mends(spec.on_blowup),
-                "--record-islands measures the last step of a frame again, and --on-blowup " +
+  require_input(!has_islands || !stability::mends(spec.on_blowup),
+                "--record islands measures the last step of a frame again, and --on-blowup " +
                     std::string(stability::on_blowup_names[static_cast<std::size_t>(spec.on_blowup)]) +
                     " may have replaced it; use --on-blowup report or stop");
-  require_input(!spec.record_residuals || traits.shows_residuals,
-                "--record-residuals: --stepper " + std::string(name_of(kind)) +
+  require_input(!spec.records.has(Record::residuals) || traits.shows_residuals,
+                "--record residuals: --stepper " + std::string(name_of(kind)) +
                     " does not show its rows; use --stepper sor");
-  for (const auto& [is_recorded, name] : {std::pair(spec.record_islands, "--record-islands"),
-                                          std::pair(spec.record_contacts, "--record-contacts"),
-                                          std::pair(spec.record_residuals, "--record-residuals")}) {
-    require_input(!is_recorded || !spec.no_output,
-                  std::string(name) + " writes into the run's file; drop --no-output");
-  }
+  const std::string recorded = to_text(spec.records);
+  require_input(recorded.empty() || !spec.no_output,
+                "--record " + recorded + " writes into the run's file; drop --no-output");
 }
 
 }  // namespace
@@ -157,6 +157,24 @@ WorldRange parse_world_range(const std::string& text, const std::string& what) {
   require_input(range.first < range.end,
                 what + " " + text + ": there is no world from A to B-1; give B above A");
   return range;
+}
+
+Records parse_records(const std::string& text, const std::string& what) {
+  Records records;
+  std::istringstream list(text);
+  for (std::string name; std::getline(list, name, ',');) {
+    const auto one = stepping::read_word<Record>(name, what, record_names);
+    records.chosen[static_cast<std::size_t>(one)] = true;
+  }
+  return records;
+}
+
+std::string to_text(const Records& records) {
+  std::string text;
+  for (std::size_t i = 0; i < record_names.size(); ++i) {
+    if (records.chosen[i]) text += (text.empty() ? "" : ",") + std::string(record_names[i]);
+  }
+  return text;
 }
 
 std::string to_text(const WorldRange& range) {

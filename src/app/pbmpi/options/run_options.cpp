@@ -177,23 +177,16 @@ std::vector<RunOption> output_rows() {
        .shows_default = true,
        .saved = Saved::value,
        .recorded = true},
-      {.name = "record-islands",
-       .member = &RunSpec::record_islands,
+      {.name = "record",
+       .member = &RunSpec::records,
        .group = group,
-       .meaning = "quick, direct: after each frame measure its last step again, island by island (slow; "
-                  "outside of the frame's time, and the states stay the same)",
-       .recorded = true},
-      {.name = "record-contacts",
-       .member = &RunSpec::record_contacts,
-       .group = group,
-       .meaning = "store the contacts of the last step of each frame (geoms, place, normal, depth, forces) "
-                  "and the forces of its joints",
-       .recorded = true},
-      {.name = "record-residuals",
-       .member = &RunSpec::record_residuals,
-       .group = group,
-       .meaning = "sor: store how far the last step of each frame is from the solution of its constraints",
-       .recorded = true},
+       .placeholder = "LIST",
+       .meaning =
+           "what else to store of the last step of each frame, e.g. contacts,residuals. islands (quick, "
+           "direct): the time of each island and space, measured once more after the frame (slow; outside of "
+           "the frame's time, and the states stay the same). contacts: geoms, place, normal, depth, forces, "
+           "and the forces of joints. residuals (sor): how far the step is from the solution of its "
+           "constraints"},
       {.name = "report",
        .member = &RunSpec::report,
        .group = group,
@@ -282,6 +275,10 @@ WorldRange read(const std::string& text, const std::string& what, const RunOptio
   return parse_world_range(text, what);
 }
 
+Records read(const std::string& text, const std::string& what, const RunOption&, Type<Records>) {
+  return parse_records(text, what);
+}
+
 model::EffectChoices read(const std::string& text, const std::string& what, const RunOption&,
                           Type<model::EffectChoices>) {
   try {
@@ -305,6 +302,7 @@ std::optional<T> read(const std::string& text, const std::string& what, const Ru
 
 std::string as_text(const RunOption&, const std::string& value) { return value; }
 std::string as_text(const RunOption&, const WorldRange& value) { return to_text(value); }
+std::string as_text(const RunOption&, const Records& value) { return to_text(value); }
 std::string as_text(const RunOption&, const model::EffectChoices& value) { return effects::to_text(value); }
 std::string as_text(const RunOption& option, double value) {
   return core::quantity_text(value, *option.measure);

@@ -20,11 +20,12 @@
 namespace pbmpi::app {
 
 /// The member of RunSpec that an option sets. Real numbers are quantities with a unit.
-using RunMember = std::variant<bool RunSpec::*, int RunSpec::*, double RunSpec::*, std::uint64_t RunSpec::*,
-                               std::optional<int> RunSpec::*, std::optional<double> RunSpec::*,
-                               std::optional<std::string> RunSpec::*, std::optional<WorldRange> RunSpec::*,
-                               model::EffectChoices RunSpec::*, stability::OnBlowup RunSpec::*,
-                               Decomposition RunSpec::*, ReportFormat RunSpec::*>;
+using RunMember =
+    std::variant<bool RunSpec::*, int RunSpec::*, double RunSpec::*, std::uint64_t RunSpec::*,
+                 std::optional<int> RunSpec::*, std::optional<double> RunSpec::*,
+                 std::optional<std::string> RunSpec::*, std::optional<WorldRange> RunSpec::*,
+                 Records RunSpec::*, model::EffectChoices RunSpec::*, stability::OnBlowup RunSpec::*,
+                 Decomposition RunSpec::*, ReportFormat RunSpec::*>;
 
 /// The headings of --help.
 enum class OptionGroup { scene, step, cut, output, stop };

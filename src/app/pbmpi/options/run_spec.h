@@ -30,6 +30,22 @@ struct WorldRange {
 WorldRange parse_world_range(const std::string& text, const std::string& what);
 std::string to_text(const WorldRange& range);
 
+/// What a run records beside the bodies and the times of its frames.
+enum class Record { islands, contacts, residuals };
+inline constexpr std::array<std::string_view, 3> record_names = {"islands", "contacts", "residuals"};
+
+/// Which of them, indexed by Record.
+struct Records {
+  std::array<bool, record_names.size()> chosen{};
+
+  bool has(Record one) const { return chosen[static_cast<std::size_t>(one)]; }
+};
+
+/// "contacts,residuals". Throws core::InputError, opening with `what`, for a word that is none of
+/// record_names.
+Records parse_records(const std::string& text, const std::string& what);
+std::string to_text(const Records& records);
+
 /// When a run stops early or is saved, and where.
 struct CheckpointSpec {
   std::string path;
@@ -58,7 +74,7 @@ struct RunSpec {
   std::optional<std::string> output;  ///< nothing: no file is written
   bool no_output = false, no_xdmf = false;
   int record_every = 1;
-  bool record_islands = false, record_contacts = false, record_residuals = false;
+  Records records;
   ReportFormat report = ReportFormat::text;
   double budget_s = stepping::default_frame_budget_s;  ///< per frame; changes no result
 

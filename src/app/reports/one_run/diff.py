@@ -220,7 +220,7 @@ def constraint_section(c):
                  for line in ((f"{whose}, largest", colour, False, [table[kind].max for table in of_run.by_frame]),
                               (f"{whose}, rms", colour, True, [table[kind].rms for table in of_run.by_frame]))]
         found += [chart_of(c, spoken(kind), "", unit, lines)] if lines else []
-    return Section("How far each run is from its own constraints", "Joints that gape or are bent where they must not be; with --record-contacts, of "
+    return Section("How far each run is from its own constraints", "Joints that gape or are bent where they must not be; with --record contacts, of "
                    "the last step of each frame, how deep contacts are, and how far those slip that should stick.", found, shown_in=(PAGE,))
 
 
