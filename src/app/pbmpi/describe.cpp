@@ -7,6 +7,8 @@
 #include <map>
 #include <sstream>
 
+#include "app/common/estimate_spec.h"
+#include "app/pbmpi/options/run_options.h"
 #include "app/pbmpi/run_parameters.h"
 #include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
@@ -155,6 +157,26 @@ std::string ensemble_lines(const Work& work) {
   return text;
 }
 
+/// The scene, the stepper, and the options that are not as by default, as a command line gives them.
+std::string options_line(const Work& work) {
+  const RunSpec& spec = work.spec;
+  RunSpec usual;
+  std::string text = "options:";
+  for (const RunOption& option : run_options()) {
+    take_default(option, work.scene->defaults(), usual);
+    const auto value = text_of(option, spec);
+    if (!value || value == text_of(option, usual)) continue;
+    text += " --" + std::string(option.name) + (value->empty() ? "" : " " + *value);
+  }
+  for (const stepping::StepOption& option : stepping::step_options()) {
+    const bool is_usual = option.name != "stepper" && is_default(option, spec.stepper);
+    if (fits(option, spec.stepper.kind) && !is_usual)
+      text += " --" + std::string(option.name) + " " + given_text(option, spec.stepper);
+  }
+  if (spec.estimate) text += " --feec='" + estimate_text(*spec.estimate) + "'";
+  return text + "\n";
+}
+
 void print_plan(std::ostream& out, const effects::RunPlan& plan, stepping::StepperKind stepper) {
   out << "step plan:\n";
   for (const effects::RunPass& pass : plan.passes()) {
@@ -181,7 +203,8 @@ std::string describe(const Work& work, int num_ranks) {
   out << '\n' << ensemble_lines(work);
   out << "frames: " << spec.warmup << " warm-up + " << spec.frames << " measured, " << spec.steps_per_frame
       << " steps of " << spec.stepper.dt_s << " s\n"
-      << "stepper: " << setting_text(spec.stepper) << ", seed " << spec.stepper.seed << '\n';
+      << "stepper: " << setting_text(spec.stepper) << ", seed " << spec.stepper.seed << '\n'
+      << options_line(work);
   if (spec.estimate) {
     const stepping::StepperSettings& stepper = *spec.estimate;
     out << "estimate: " << name_of(stepper.kind) << ", " << stepper.iterations << " iteration"

@@ -149,7 +149,7 @@ class Effects(ProgramTest):
 
     def test_leaving_cross_space_out_makes_one_space(self):
         text = self.pbmpi(1, "--scene", "CrashWa", "--describe", "--effects", "-cross_space").stdout
-        self.assertNotIn("cross_space ", text)
+        self.assertNotIn("\n  cross_space ", text)
         self.assertIn("spaces: 1\n", text)
 
     def test_a_scene_file_chooses_and_the_command_line_goes_before_it(self):
