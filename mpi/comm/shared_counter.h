@@ -21,7 +21,9 @@ class SharedCounter {
 
   /// Not collective.
   std::int64_t next() { return add(1); }
-  /// How many were handed out. Not collective.
+  /// Leaves out the next `count` numbers. Not collective.
+  void skip(std::int64_t count) { add(count); }
+  /// How many were handed out or left out. Not collective.
   std::int64_t value() { return add(0); }
 
  private:

@@ -26,6 +26,14 @@ TEST(SharedCounter, hands_out_each_number_once_to_whoever_asks) {
   EXPECT_EQ(counter.value(), num_numbers + world.size()) << "each rank has asked once too often";
 }
 
+TEST(SharedCounter, leaves_numbers_out_for_all_ranks) {
+  const Communicator world = Communicator::world();
+  SharedCounter counter(world);
+  if (world.is_root()) counter.skip(10);
+  world.barrier();
+  EXPECT_GE(counter.next(), 10);
+}
+
 TEST(SharedCounter, counts_for_one_rank_without_mpi) {
   SharedCounter counter{Communicator()};
   EXPECT_EQ(counter.next(), 0);

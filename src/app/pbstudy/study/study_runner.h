@@ -123,15 +123,20 @@ CaseOutcomes<Result, Rows...> StudyRunner::run(const std::vector<Case>& cases, C
   CaseOutcomes<Result, Rows...> own = mpi::agree_on_errors(comm_, [&] {
     CaseOutcomes<Result, Rows...> outcomes;
     for (const auto& [index, bytes] : kept_) outcomes.append(outcome_of<Result, Rows...>(bytes));
-    while (!is_to_stop()) {
-      const std::int64_t next = taken.next();
-      if (next >= num_to_do_) break;
-      const std::size_t i = to_do[static_cast<std::size_t>(next)];
-      CaseOutcome<Result, Rows...> outcome{run_case(i)};
-      outcome.set_index(static_cast<int>(i));
-      journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
-      outcomes.append(outcome);
-      case_done(cases[i].scene);
+    try {
+      while (!is_to_stop()) {
+        const std::int64_t next = taken.next();
+        if (next >= num_to_do_) break;
+        const std::size_t i = to_do[static_cast<std::size_t>(next)];
+        CaseOutcome<Result, Rows...> outcome{run_case(i)};
+        outcome.set_index(static_cast<int>(i));
+        journal_->add(static_cast<std::int64_t>(i), bytes_of(outcome));
+        outcomes.append(outcome);
+        case_done(cases[i].scene);
+      }
+    } catch (...) {
+      taken.skip(num_to_do_);  // the other ranks end with the case that they are at
+      throw;
     }
     return outcomes;
   });
