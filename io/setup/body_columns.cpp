@@ -1,7 +1,7 @@
 /// The contents of a world: /particles/bodies, /geoms, /pair_materials.
-#include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
 #include "io/setup/static_columns.h"
 #include "model/names.h"
@@ -11,6 +11,15 @@ namespace pbmpi::io {
 namespace {
 
 using stepping::LocalWorld;
+
+/// [num_bodies] The first geom of each body, or none.
+std::vector<const model::Geom*> first_geoms(const model::Model& model) {
+  std::vector<const model::Geom*> geoms(model.bodies.size(), nullptr);
+  for (const model::Geom& geom : model.geoms) {
+    if (geom.body != model::no_body && geoms[geom.body] == nullptr) geoms[geom.body] = &geom;
+  }
+  return geoms;
+}
 
 }  // namespace
 
@@ -22,11 +31,10 @@ void write_bodies(const FileRanks& ranks, ColumnFile file, const RunSetup& setup
   std::array<std::vector<double>, model::body_columns.size()> initial;
   for (const LocalWorld& local : setup.worlds) {
     const model::Model& m = *local.model;
+    const std::vector<const model::Geom*> geoms = first_geoms(m);
     for (int b = 0; b < m.num_bodies(); ++b) {
       const model::Body& body = m.bodies[b];
-      const auto geom =
-          std::find_if(m.geoms.begin(), m.geoms.end(), [b](const auto& g) { return g.body == b; });
-      const bool has_geom = geom != m.geoms.end();
+      const model::Geom* geom = geoms[b];
       id.push_back(setup.table.body_offset[local.id] + b);
       world.push_back(local.id);
       local_body.push_back(b);
@@ -35,8 +43,8 @@ void write_bodies(const FileRanks& ranks, ColumnFile file, const RunSetup& setup
       kind.emplace_back(name_of(m.actors[body.actor].kind));
       mass.push_back(body.mass_kg);
       append(inertia, body.inertia);
-      shape.emplace_back(has_geom ? name_of(geom->shape) : "none");
-      append(size, has_geom ? geom->size : std::array<double, 3>{});
+      shape.emplace_back(geom != nullptr ? name_of(geom->shape) : "none");
+      append(size, geom != nullptr ? geom->size : std::array<double, 3>{});
     }
     const model::State start = model::initial_state(m);
     for (std::size_t i = 0; i < initial.size(); ++i) {

@@ -25,11 +25,6 @@ struct Kind {
   auto operator<=>(const Kind&) const = default;
 };
 
-/// May the two touch by their types and affinities? The rule is MuJoCo's ("Collision detection").
-bool meet(const Kind& a, const Kind& b) {
-  return (a.contype & b.conaffinity) != 0 || (b.contype & a.conaffinity) != 0;
-}
-
 class Grouping {
  public:
   Grouping(const Mechanism& mechanism, const RigidTree& tree, Pairs apart, Pairs joined)
@@ -46,17 +41,18 @@ class Grouping {
     }
     std::ranges::sort(kinds_);
     kinds_.erase(std::unique(kinds_.begin(), kinds_.end()), kinds_.end());
-    leader_.resize(kinds_.size());
-    std::iota(leader_.begin(), leader_.end(), std::size_t{0});
-    for_each_pair([&](std::size_t a, std::size_t b, bool touch) {
-      if (!touch) leader_[find(a)] = find(b);
-    });
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) alone_[masks_of(kind)].insert(kind);
+    find_neighbours();
+    leader_.resize(kinds_.size(), kinds_.size());
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+      if (leader_[kind] == kinds_.size()) gather_from(kind);
+    }
   }
 
   ContactGroups groups(xml::Notes& notes) {
     note_what_is_parted(notes);
     std::vector<int> size(kinds_.size(), 0);
-    for (std::size_t i = 0; i < kinds_.size(); ++i) ++size[find(i)];
+    for (const std::size_t leader : leader_) ++size[leader];
     ContactGroups result;
     std::map<std::size_t, int> group_at;  // by leader; kinds that never need parting share two groups
     std::map<Kind, int> group_of_kind;
@@ -65,9 +61,9 @@ class Grouping {
       return static_cast<int>(result.groups.size()) - 1;
     };
     for (std::size_t i = 0; i < kinds_.size(); ++i) {
-      const bool is_static = kinds_[i].rigid == 0, is_single = size[find(i)] == 1;
+      const bool is_static = kinds_[i].rigid == 0, is_single = size[leader_[i]] == 1;
       const std::size_t shared = kinds_.size() + (is_static ? 1 : 0);
-      const auto [at, is_new] = group_at.try_emplace(is_single ? shared : find(i));
+      const auto [at, is_new] = group_at.try_emplace(is_single ? shared : leader_[i]);
       if (is_new) at->second = add(is_static, is_single && !is_static);
       auto& group = result.groups[static_cast<std::size_t>(at->second)];
       group.is_static = group.is_static && is_static;
@@ -84,48 +80,122 @@ class Grouping {
   }
 
  private:
+  /// Type and affinity. A model has few different ones.
+  using Masks = std::pair<unsigned, unsigned>;
+  using KindSets = std::map<Masks, std::set<std::size_t>>;
+
   static Kind kind_of(int rigid, const LinkGeom& geom) {
     return {rigid, geom.link, geom.contype, geom.conaffinity};
   }
+  Masks masks_of(std::size_t kind) const { return {kinds_[kind].contype, kinds_[kind].conaffinity}; }
 
-  std::size_t find(std::size_t kind) {
-    while (leader_[kind] != kind) kind = leader_[kind] = leader_[leader_[kind]];
-    return kind;
+  /// May the two touch by their types and affinities? The rule is MuJoCo's ("Collision detection").
+  bool meet(const Masks& a, const Masks& b) const {
+    return mechanism_.self_collision && ((a.first & b.second) != 0 || (b.first & a.second) != 0);
   }
 
-  /// Calls visit(a, b, touch) for all pairs that could touch in a Model by default.
-  template <class Visit>
-  void for_each_pair(Visit visit) const {
-    for (std::size_t a = 0; a < kinds_.size(); ++a) {
-      for (std::size_t b = a + 1; b < kinds_.size(); ++b) {
-        const std::pair rigids(kinds_[a].rigid, kinds_[b].rigid);
-        if (rigids.first == rigids.second || joined_.contains(rigids)) continue;
-        const bool are_apart = !mechanism_.self_collision || apart_.contains(rigids) ||
-                               apart_links_.contains(std::minmax(kinds_[a].link, kinds_[b].link));
-        visit(a, b, !are_apart && meet(kinds_[a], kinds_[b]));
+  /// Does a Model keep the two from touching by itself?
+  bool never_touch(std::size_t a, std::size_t b) const {
+    const auto rigids = std::minmax(kinds_[a].rigid, kinds_[b].rigid);
+    return rigids.first == rigids.second || joined_.contains(rigids);
+  }
+
+  bool are_apart(std::size_t a, std::size_t b) const {
+    return apart_.contains(std::minmax(kinds_[a].rigid, kinds_[b].rigid)) ||
+           apart_links_.contains(std::minmax(kinds_[a].link, kinds_[b].link));
+  }
+
+  /// Finds the kinds that are kept apart whatever their types and affinities are.
+  void find_neighbours() {
+    apart_of_.resize(kinds_.size());
+    const auto add_all = [&](const Pairs& pairs, const auto& member) {
+      std::map<int, std::vector<std::size_t>> kinds;
+      for (std::size_t kind = 0; kind < kinds_.size(); ++kind) kinds[kinds_[kind].*member].push_back(kind);
+      for (const auto& [first, second] : pairs) {
+        for (const std::size_t a : kinds[first]) {
+          for (const std::size_t b : kinds[second]) {
+            apart_of_[a].push_back(b);
+            apart_of_[b].push_back(a);
+          }
+        }
+      }
+    };
+    add_all(apart_, &Kind::rigid);
+    add_all(apart_links_, &Kind::link);
+  }
+
+  /// Gives a leader to all kinds that must not touch it, or one of these. Each kind leaves alone_ once, and
+  /// one that stays there, although it does not meet the other, has a part or a joint with it: the time
+  /// grows with kinds, joints and pairs apart.
+  void gather_from(std::size_t leader) {
+    std::vector<std::size_t> gathered;
+    const auto gather = [&](std::size_t kind) {
+      leader_[kind] = leader;
+      gathered.push_back(kind);
+    };
+    gather(leader);
+    alone_[masks_of(leader)].erase(leader);
+    while (!gathered.empty()) {
+      const std::size_t kind = gathered.back();
+      gathered.pop_back();
+      for (const std::size_t other : apart_of_[kind]) {
+        if (!never_touch(kind, other) && alone_[masks_of(other)].erase(other) > 0) gather(other);
+      }
+      for (auto& [masks, others] : alone_) {
+        if (meet(masks_of(kind), masks)) continue;
+        for (auto other = others.begin(); other != others.end();) {
+          if (never_touch(kind, *other)) {
+            ++other;
+          } else {
+            gather(*other);
+            other = others.erase(other);
+          }
+        }
       }
     }
   }
 
-  void note_what_is_parted(xml::Notes& notes) {
-    Pairs parted;
-    for_each_pair([&](std::size_t a, std::size_t b, bool touch) {
-      if (touch && find(a) == find(b)) parted.insert({kinds_[a].link, kinds_[b].link});
-    });
-    for (const auto& [a, b] : parted) {
-      const Link &first = mechanism_.links[static_cast<std::size_t>(a)],
-                 &second = mechanism_.links[static_cast<std::size_t>(b)];
-      notes.add(second.where, core::in_quotes(first.name) + " and " + core::in_quotes(second.name) +
-                                  " do not touch either: they are kept apart from a third");
+  /// Notes of each link the first that it could touch but for their group.
+  void note_what_is_parted(xml::Notes& notes) const {
+    std::map<std::size_t, KindSets> kinds_of_leader;
+    std::map<int, std::set<int>> parted;  // links, most_named at most
+    for (std::size_t kind = 0; kind < kinds_.size(); ++kind) {
+      KindSets& before = kinds_of_leader[leader_[kind]];
+      std::set<int>& links = parted[kinds_[kind].link];
+      for (const auto& [masks, others] : before) {
+        if (!meet(masks_of(kind), masks)) continue;
+        for (auto other = others.begin(); other != others.end() && links.size() < most_named; ++other) {
+          if (!never_touch(kind, *other) && !are_apart(kind, *other)) links.insert(kinds_[*other].link);
+        }
+      }
+      before[masks_of(kind)].insert(kind);
+    }
+    for (const auto& [link, others] : parted) {
+      if (!others.empty()) note_parted(others, link, notes);
     }
   }
 
+  void note_parted(const std::set<int>& links, int link, xml::Notes& notes) const {
+    const auto name = [&](int index) {
+      return core::in_quotes(mechanism_.links[static_cast<std::size_t>(index)].name);
+    };
+    const std::string others = links.size() < most_named ? "" : ", nor do others and " + name(link);
+    notes.add(mechanism_.links[static_cast<std::size_t>(link)].where,
+              name(*links.begin()) + " and " + name(link) + " do not touch either" + others +
+                  ": they are kept apart from a third");
+  }
+
+  /// Kinds that are looked for before a note says that there are others.
+  static constexpr std::size_t most_named = 2;
+
   const Mechanism& mechanism_;
   const RigidTree& tree_;
-  Pairs apart_links_;                // of links
-  Pairs apart_, joined_;             // of rigids
-  std::vector<Kind> kinds_;          // sorted
-  std::vector<std::size_t> leader_;  // [num_kinds] union-find
+  Pairs apart_links_;                               // of links
+  Pairs apart_, joined_;                            // of rigids
+  std::vector<Kind> kinds_;                         // sorted
+  std::vector<std::vector<std::size_t>> apart_of_;  // [num_kinds]
+  KindSets alone_;                                  // kinds without a leader
+  std::vector<std::size_t> leader_;                 // [num_kinds] the first kind of its group
 };
 
 }  // namespace

@@ -153,6 +153,21 @@ TEST(RunFile, describes_bodies_and_geoms_in_world_order) {
   EXPECT_EQ(run.geoms.size(), geom);
 }
 
+// A search of all geoms for each body would not end.
+TEST(RunFile, describes_the_bodies_of_a_large_world) {
+  if (world().size() > 1) GTEST_SKIP() << "one rank has the world";
+  const SharedFolder folder(world());
+  Sample sample = sample_on(world());
+  sample.num_worlds = 1;
+  sample.bodies_per_world = 400'000;
+  const std::string path = folder.file("run.h5");
+  begin_run(world(), sample, path, 0)->close(false, "");
+  if (!world().is_root()) return;
+  const RunData run = read_run(path);
+  ASSERT_EQ(run.bodies.name.size(), 400'000u);
+  EXPECT_EQ(run.bodies.name.back(), sample_model(sample, 0)->bodies.back().name);
+}
+
 TEST(RunFile, keeps_the_rows_of_worlds_that_migrate_between_frames) {
   const SharedFolder folder(world());
   Sample sample = sample_on(world());

@@ -89,5 +89,47 @@ TEST(ContactGroups, part_a_body_from_a_fixed_one_and_not_from_the_floor) {
   EXPECT_FALSE(touch(xml, 1, 2)) << "the base";
 }
 
+/// A sphere that stands free, on a place of its own, with the i-th mask of each list.
+std::string loose_sphere(int i, int num_types, int num_affinities) {
+  return "<body name='b" + std::to_string(i) + "' pos='" + std::to_string(3 * i) +
+         " 0 0'><freejoint/><geom size='1' contype='" + std::to_string(1 + i % num_types) +
+         "' conaffinity='" + std::to_string(1 + i % num_affinities) + "'/></body>";
+}
+
+TEST(ContactGroups, part_whoever_is_linked_by_pairs_that_must_not_touch) {
+  constexpr int count = 12;
+  for (const auto& [types, affinities] : {std::pair(2, 5), {4, 3}, {7, 2}, {1, 8}}) {
+    std::string bodies;
+    for (int i = 0; i < count; ++i) bodies += loose_sphere(i, types, affinities);
+    const auto model = model_of(mujoco(bodies));
+    bool linked[count][count];
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j < count; ++j) {
+        linked[i][j] =
+            ((1 + i % types) & (1 + j % affinities)) == 0 && ((1 + j % types) & (1 + i % affinities)) == 0;
+      }
+    }
+    for (int k = 0; k < count; ++k) {
+      for (int i = 0; i < count; ++i) {
+        for (int j = 0; j < count; ++j) linked[i][j] = linked[i][j] || (linked[i][k] && linked[k][j]);
+      }
+    }
+    const model::TouchRule rule(*model);
+    for (int i = 0; i < count; ++i) {
+      for (int j = i + 1; j < count; ++j)
+        EXPECT_EQ(rule.may_touch(i, j), !linked[i][j]) << types << ": " << i << ' ' << j;
+    }
+  }
+}
+
+// Pairs of bodies, one by one, would take gigabytes.
+TEST(ContactGroups, of_many_bodies_are_found_without_their_pairs) {
+  constexpr int count = 30'000;
+  std::string bodies;
+  for (int i = 0; i < count; ++i) bodies += loose_sphere(i, 3, 5);
+  const auto model = model_of(mujoco(bodies));
+  EXPECT_EQ(model->num_bodies(), count);
+}
+
 }  // namespace
 }  // namespace pbmpi::scenes

@@ -90,5 +90,17 @@ TEST(Massless, that_touches_or_branches_is_refused_with_all_names) {
   EXPECT_NE(refusal(fork).find("'fork' moves but has no mass"), std::string::npos) << refusal(fork);
 }
 
+// A search of all links for each of them would not end.
+TEST(Massless, of_any_number_are_joined) {
+  constexpr int count = 200'000;
+  std::vector<Link> links = {link("hub", no_link, 2, {0, 0, 1}, Vec3::UnitX())};
+  for (int i = 1; i <= count; ++i)
+    links.push_back(link("tip" + std::to_string(i), 0, 0, {1, 0, 0}, Vec3::UnitY()));
+  xml::Notes notes;
+  const RigidTree tree = merged(std::move(links), notes);
+  EXPECT_EQ(tree.rigids.size(), 2u);
+  EXPECT_EQ(tree.rigid_of, std::vector<int>(count + 1, 1));
+}
+
 }  // namespace
 }  // namespace pbmpi::scenes::links
