@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "geometry/cell_grid.h"
+#include "geometry/box_tree.h"
 #include "geometry/geometry.h"
 #include "scenes/parts/parts.h"
 
@@ -120,16 +120,19 @@ class Search {
  private:
   /// The pair that a sweep along x meets first.
   std::optional<Overlap> among_boxes() const {
-    geometry::CellGrid grid;
-    for (std::size_t i = 0; i < boxes_.size(); ++i) grid.add(static_cast<int>(i), 0, boxes_[i].hull);
-    grid.finish();
+    std::vector<geometry::Box> hulls;
+    hulls.reserve(boxes_.size());
+    for (const InnerBox& box : boxes_) hulls.push_back(box.hull);
+    geometry::BoxTree tree;
+    tree.set(hulls);
     std::optional<std::pair<std::size_t, std::size_t>> first;
     double depth_of_first = 0;
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
-      grid.for_each_near(0, boxes_[i].hull, [&](int other) {
-        const std::pair<std::size_t, std::size_t> pair = std::minmax(i, static_cast<std::size_t>(other));
+      tree.for_each_near(hulls[i], [&](int other) {
+        const std::pair pair(i, static_cast<std::size_t>(other));
+        if (pair.second <= i || (first && *first <= pair)) return;
         const InnerBox &a = boxes_[pair.first], &b = boxes_[pair.second];
-        if ((first && *first <= pair) || !may_clash(a, b)) return;
+        if (!may_clash(a, b)) return;
         const double deep = depth(a, b);
         if (!(deep > std::min(tolerance(a), tolerance(b)))) return;
         first = pair;
@@ -142,7 +145,7 @@ class Search {
 
   bool may_clash(const InnerBox& a, const InnerBox& b) const {
     if (a.actor == b.actor || (a.is_static && b.is_static)) return false;
-    return a.hull.overlaps(b.hull) && !joined_.contains(std::minmax(a.actor, b.actor));
+    return !joined_.contains(std::minmax(a.actor, b.actor));
   }
 
   double tolerance(const InnerBox& box) const {

@@ -228,6 +228,7 @@ void FastBodies::add(const model::State& state, const Filter& filter, std::vecto
   if (fast_.empty()) return;
   clear_sets(1);
   for (int i = 0; i < static_cast<int>(balls_.size()); ++i) put_ball(state, i, sets_.front());
+  sets_.front().swept.finish();
   for (const Fast& fast : fast_)
     look_from(state, fast, sets_.front(), [&](int other) { return filter(fast.geom, other); });
   join_found(contacts);
@@ -246,6 +247,7 @@ void FastBodies::add_across(const model::State& state, std::span<const int> grou
     const int group = group_of_body[balls_[i].body];
     if (!all_in_first || group != first) put_ball(state, i, sets_[group]);
   }
+  for (BallSet& set : sets_) set.swept.finish();
   for (const Fast& fast : fast_) {
     for (int group = 0; group < static_cast<int>(sets_.size()); ++group) {
       if (group != group_of(fast)) look_from(state, fast, sets_[group], [](int) { return true; });

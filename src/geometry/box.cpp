@@ -20,4 +20,15 @@ Box geom_box(const model::Geom& geom, const model::BodyPose& body) {
   return box;
 }
 
+Box swept_box(const core::Vec3& centre, double radius, const core::Vec3& way) {
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double from = centre[static_cast<int>(k)], along = way[static_cast<int>(k)];
+    const double margin = radius + 1e-6 * (std::abs(from) + std::abs(along) + radius);
+    box.min[k] = from + std::min(0.0, along) - margin;
+    box.max[k] = from + std::max(0.0, along) + margin;
+  }
+  return box;
+}
+
 }  // namespace pbmpi::geometry

@@ -29,6 +29,11 @@ struct Box {
     }
     return larger;
   }
+  /// Is all of the other box within this one? Not if any number is a NaN.
+  bool holds(const Box& other) const {
+    return min[0] <= other.min[0] && other.max[0] <= max[0] && min[1] <= other.min[1] &&
+           other.max[1] <= max[1] && min[2] <= other.min[2] && other.max[2] <= max[2];
+  }
   /// Touching counts.
   bool overlaps(const Box& other) const {
     return min[0] <= other.max[0] && other.min[0] <= max[0] && min[1] <= other.max[1] &&
@@ -40,5 +45,9 @@ struct Box {
 /// needed by some 1e-6 of the coordinates: boxes must not separate geoms that a collider in single precision
 /// finds touching.
 Box geom_box(const model::Geom& geom, const model::BodyPose& body);
+
+/// The box around a ball swept along its path. It is larger than needed by 1e-6 of its coordinates, so that
+/// rounding in later computations within it does not matter.
+Box swept_box(const core::Vec3& centre, double radius, const core::Vec3& way);
 
 }  // namespace pbmpi::geometry

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double most_tolerance_m = 1e-4;
 constexpr double most_share_of_thickness = 1e-3;
-/// [m] How far a query may look from where it asks the grid.
+/// [m] How far a query may look from the point for which it asks the tree.
 constexpr double reach_m = 4 * most_tolerance_m;
 
 double tolerance_of(const model::Geom& geom) {
@@ -25,6 +25,12 @@ Box box_about(const Solid& solid) {
     box.min[static_cast<std::size_t>(k)] = solid.centre[k] - half - reach_m;
     box.max[static_cast<std::size_t>(k)] = solid.centre[k] + half + reach_m;
   }
+  return box;
+}
+
+Box box_at(const core::Vec3& point) {
+  Box box;
+  for (std::size_t k = 0; k < 3; ++k) box.min[k] = box.max[k] = point[static_cast<int>(k)];
   return box;
 }
 
@@ -94,25 +100,38 @@ void Seams::add_parts() {
   for (const model::Geom& geom : model_->geoms) {
     if (geom.body != model::no_body) ++geoms_of[static_cast<std::size_t>(geom.body)];
   }
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const model::Geom& geom = model_->geoms[i];
-    if (geom.body != model::no_body && geoms_of[static_cast<std::size_t>(geom.body)] == 1) continue;
-    parts_[i].solid = solid_at(geom, geom_pose(geom, static_pose()));
-    parts_[i].tolerance_m = tolerance_of(geom);
-    parts_[i].may_touch = true;
-    if (geom.shape == model::Shape::plane) {
-      planes_.push_back(static_cast<int>(i));
-    } else {
-      grid_.add(static_cast<int>(i), geom.body, box_about(parts_[i].solid));
-    }
+  constexpr int static_cluster = 0;
+  int num_clusters = 1;
+  std::vector<int> cluster_of(model_->bodies.size());
+  for (std::size_t body = 0; body < geoms_of.size(); ++body)
+    cluster_of[body] = geoms_of[body] > 1 ? num_clusters++ : -1;
+  clusters_.resize(static_cast<std::size_t>(num_clusters));
+  for (int i = 0; i < static_cast<int>(parts_.size()); ++i) {
+    const model::Geom& geom = model_->geoms[static_cast<std::size_t>(i)];
+    const int cluster =
+        geom.body == model::no_body ? static_cluster : cluster_of[static_cast<std::size_t>(geom.body)];
+    if (cluster < 0) continue;
+    Part& part = parts_[static_cast<std::size_t>(i)];
+    part.solid = solid_at(geom, geom_pose(geom, static_pose()));
+    part.tolerance_m = tolerance_of(geom);
+    geom.shape == model::Shape::plane ? planes_.push_back(i) : add_to_cluster(cluster, i);
   }
-  grid_.finish();
+  for (Cluster& cluster : clusters_) cluster.tree.set(cluster.boxes);
+}
+
+void Seams::add_to_cluster(int cluster, int geom) {
+  Part& part = parts_[static_cast<std::size_t>(geom)];
+  part.cluster = cluster;
+  clusters_[static_cast<std::size_t>(cluster)].geoms.push_back(geom);
+  clusters_[static_cast<std::size_t>(cluster)].boxes.push_back(box_about(part.solid));
 }
 
 void Seams::find_neighbours(int geom) {
   const Part& part = parts_[static_cast<std::size_t>(geom)];
-  if (!part.may_touch || part.solid.shape == model::Shape::plane) return;
-  grid_.for_each_near(group_of(geom), box_about(part.solid), [&](int other) { meet(geom, other); });
+  if (part.cluster < 0) return;
+  const Cluster& cluster = clusters_[static_cast<std::size_t>(part.cluster)];
+  cluster.tree.for_each_near(box_about(part.solid),
+                             [&](int item) { meet(geom, cluster.geoms[static_cast<std::size_t>(item)]); });
   if (group_of(geom) != model::no_body) return;
   for (const int plane : planes_) meet(geom, plane);
 }
@@ -154,9 +173,14 @@ bool Seams::any_neighbour(int geom, const core::Vec3& point, const Found& found)
     const Part& part = parts_[static_cast<std::size_t>(other)];
     return found(part.solid, std::min(tolerance, part.tolerance_m));
   };
-  const int group = group_of(geom);
-  if (grid_.any_at(group, point, look_at)) return true;
-  return group == model::no_body && std::any_of(planes_.begin(), planes_.end(), look_at);
+  if (const int index = parts_[static_cast<std::size_t>(geom)].cluster; index >= 0) {
+    const Cluster& cluster = clusters_[static_cast<std::size_t>(index)];
+    const auto look_at_item = [&](int item) {
+      return look_at(cluster.geoms[static_cast<std::size_t>(item)]);
+    };
+    if (cluster.tree.any_near(box_at(point), look_at_item)) return true;
+  }
+  return group_of(geom) == model::no_body && std::any_of(planes_.begin(), planes_.end(), look_at);
 }
 
 bool Seams::is_covered(int geom, const core::Vec3& point, const core::Vec3& normal) const {

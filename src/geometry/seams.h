@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/cell_grid.h"
+#include "geometry/box_tree.h"
 #include "geometry/solid.h"
 #include "model/contact.h"
 #include "model/model.h"
@@ -58,10 +58,17 @@ class Seams {
   struct Part {
     Solid solid;
     double tolerance_m = 0;  ///< how far a neighbour may be away
-    bool may_touch = false;  ///< false for the only geom of a body
+    int cluster = -1;        ///< index into clusters_; -1: the only geom of a body, or a plane
     bool touches = false;
     unsigned coverable = 0;  ///< set of Faces in front of which a neighbour may reach
     bool may_be_covered(const Face& face) const { return (coverable >> index_of(solid, face) & 1u) != 0; }
+  };
+  /// The geoms of a body that has several, or all static ones but planes, with their boxes in the body's
+  /// frame.
+  struct Cluster {
+    std::vector<int> geoms;
+    std::vector<Box> boxes;
+    BoxTree tree;
   };
   /// A geom of a pair, and the pose of its body.
   struct Side {
@@ -75,6 +82,7 @@ class Seams {
   bool touches(int geom) const { return parts_[static_cast<std::size_t>(geom)].touches; }
   int group_of(int geom) const { return model_->geoms[static_cast<std::size_t>(geom)].body; }
   void add_parts();
+  void add_to_cluster(int cluster, int geom);
   void find_neighbours(int geom);
   void meet(int first, int second);
   void leave_out_uneven_bodies();
@@ -93,9 +101,9 @@ class Seams {
   bool any_neighbour(int geom, const core::Vec3& point, const Found& found) const;
 
   const model::Model* model_;
-  std::vector<Part> parts_;    ///< [geoms]
-  std::vector<int> planes_;    ///< static
-  CellGrid grid_;              ///< of all but planes
+  std::vector<Part> parts_;  ///< [geoms]
+  std::vector<int> planes_;  ///< static
+  std::vector<Cluster> clusters_;
   std::vector<char> is_even_;  ///< [bodies] are two geoms of the body flush?
 };
 

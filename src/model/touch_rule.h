@@ -23,7 +23,8 @@ class TouchRule {
 
  private:
   const Model* model_;
-  std::vector<std::vector<int>> joined_;  ///< [num_bodies] bodies with an unbroken joint to it, sorted
+  std::vector<int> first_;   ///< [num_bodies + 1] where the bodies with an unbroken joint to it begin
+  std::vector<int> joined_;  ///< these, sorted for each body
 };
 
 }  // namespace pbmpi::model

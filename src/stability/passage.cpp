@@ -78,6 +78,11 @@ PassageFinder::PassageFinder(const model::Model& model) : model_(&model), rule_(
     const double inner = inner_radius(geom);
     if (inner > best[geom.body].radius) best[geom.body] = {geom.body, i, inner, sizes[geom.body]};
   }
+  std::vector<geometry::Box> boxes;
+  boxes.reserve(static_.size());
+  for (const Solid& solid : static_)
+    boxes.push_back(geometry::swept_box(solid.centre, solid.radius, Vec3::Zero()));
+  static_tree_.set(boxes);
   std::ranges::copy_if(best, std::back_inserter(movers_), [](const Mover& one) { return one.radius > 0; });
   std::ranges::stable_sort(moving_, {}, &Solid::body);
   extents_.resize(model.bodies.size());
@@ -144,59 +149,45 @@ void PassageFinder::find_close_pairs(std::span<const Vec3> from, const State& af
   squared_lengths_.resize(num_bodies);
   far_.clear();
   close_.clear();
-  Vec3 mean = Vec3::Zero();
+  mean_way_ = Vec3::Zero();
   for (std::size_t body = 0; body < num_bodies; ++body) {
     ways_[body] = after.position[body] - from[body];
     squared_lengths_[body] = ways_[body].squaredNorm();
-    mean += ways_[body];
+    mean_way_ += ways_[body];
   }
-  if (num_bodies > 0) mean /= static_cast<double>(num_bodies);
-  const auto is_far = [&](std::size_t body) {
-    return (ways_[body] - mean).squaredNorm() >= least_size_ * least_size_;
-  };
+  if (num_bodies > 0) mean_way_ /= static_cast<double>(num_bodies);
   for (std::size_t body = 0; body < num_bodies; ++body) {
     if (is_far(body)) far_.push_back(static_cast<int>(body));
   }
   if (far_.empty()) return;
-  reaches_.set(after.position, squared_lengths_, extents_);
-  for (const int far : far_) {
-    const auto a = static_cast<std::size_t>(far);
-    const Extent& one = extents_[a];
-    const std::span<const std::int32_t> in_reach = reaches_.meeting(a);
-    for (std::size_t b = 0; b < num_bodies; ++b) {
-      if (in_reach[b] == 0) continue;
-      const Extent& other = extents_[b];
-      const double least_way = 2 * std::min(one.size, other.size);
-      if (one.actor == other.actor || (ways_[a] - ways_[b]).squaredNorm() < least_way * least_way) continue;
-      const bool is_second_look = b < a && is_far(b);
-      if (!is_second_look) close_.push_back({far, static_cast<int>(b)});
-    }
-  }
-}
-
-void PassageFinder::Reaches::set(std::span<const Vec3> position, std::span<const double> squared_lengths,
-                                 std::span<const Extent> extents) {
-  const std::size_t num_bodies = position.size();
-  for (std::vector<float>* numbers : {&x_, &y_, &z_, &radius_}) numbers->resize(num_bodies);
-  hits_.resize(num_bodies);
-  const Vec3& origin = position.front();
+  reaches_.resize(num_bodies);
   for (std::size_t body = 0; body < num_bodies; ++body) {
-    const Vec3 at = position[body] - origin;
-    x_[body] = static_cast<float>(at.x());
-    y_[body] = static_cast<float>(at.y());
-    z_[body] = static_cast<float>(at.z());
-    radius_[body] = static_cast<float>(std::sqrt(squared_lengths[body]) + extents[body].radius);
+    const double reach = std::sqrt(squared_lengths_[body]) + extents_[body].radius;
+    reaches_[body] = geometry::swept_box(after.position[body], reach, Vec3::Zero());
   }
+  reach_tree_.set(reaches_);
+  for (const int far : far_) find_close_to(far);
 }
 
-std::span<const std::int32_t> PassageFinder::Reaches::meeting(std::size_t body) {
-  constexpr float rounding = 1.0001F;  // that of single precision, with a large margin
-  const float x = x_[body], y = y_[body], z = z_[body], radius = radius_[body];
-  for (std::size_t i = 0; i < hits_.size(); ++i) {
-    const float dx = x_[i] - x, dy = y_[i] - y, dz = z_[i] - z, sum = rounding * (radius_[i] + radius);
-    hits_[i] = dx * dx + dy * dy + dz * dz <= sum * sum ? 1 : 0;
-  }
-  return hits_;
+bool PassageFinder::is_far(std::size_t body) const {
+  return (ways_[body] - mean_way_).squaredNorm() >= least_size_ * least_size_;
+}
+
+/// Pairs in ascending order, so that the first passage is the same however they are found.
+void PassageFinder::find_close_to(int far) const {
+  const auto a = static_cast<std::size_t>(far);
+  const Extent& one = extents_[a];
+  const auto num_before = std::ssize(close_);
+  reach_tree_.for_each_near(reaches_[a], [&](int near) {
+    const auto b = static_cast<std::size_t>(near);
+    const Extent& other = extents_[b];
+    const double least_way = 2 * std::min(one.size, other.size);
+    if (one.actor == other.actor || (ways_[a] - ways_[b]).squaredNorm() < least_way * least_way) return;
+    const bool is_second_look = b < a && is_far(b);
+    if (!is_second_look) close_.push_back({far, near});
+  });
+  std::sort(close_.begin() + num_before, close_.end(),
+            [](const Pair& p, const Pair& q) { return p.second < q.second; });
 }
 
 std::optional<Passage> PassageFinder::through_planes(const Mover& mover, const Vec3& from,
@@ -211,7 +202,12 @@ std::optional<Passage> PassageFinder::through_planes(const Mover& mover, const V
 
 std::optional<Passage> PassageFinder::through_static(const Mover& mover, const Vec3& from,
                                                      const Vec3& way) const {
-  for (const Solid& solid : static_) {
+  near_.clear();
+  static_tree_.for_each_near(geometry::swept_box(from, 0, way),
+                             [this](int solid) { near_.push_back(solid); });
+  std::ranges::sort(near_);
+  for (const int near : near_) {
+    const Solid& solid = static_[static_cast<std::size_t>(near)];
     if (squared_distance(solid.centre, from, way) > solid.radius * solid.radius) continue;
     if (!rule_.may_touch(mover.geom, solid.geom)) continue;
     const Geom& geom = model_->geoms[solid.geom];
@@ -250,21 +246,38 @@ std::optional<Passage> PassageFinder::through_body(int body, int other, const St
   return std::nullopt;
 }
 
-bool PassageFinder::is_inside(const State& state, int body) const {
-  const auto mover = std::ranges::lower_bound(movers_, body, {}, &Mover::body);
-  if (mover == movers_.end() || mover->body != body) return false;
-  const Vec3& point = state.position[body];
-  const auto is_in = [&](const Solid& solid) {
-    const Vec3& centre = solid.body == model::no_body ? solid.centre : state.position[solid.body];
-    if ((point - centre).squaredNorm() > solid.radius * solid.radius) return false;
-    if (!rule_.may_touch(mover->geom, solid.geom)) return false;
-    const Geom& geom = model_->geoms[solid.geom];
-    const BodyPose pose = pose_of(state, solid.body);
-    // If the point is inside, a path to it from outside enters the geom, and the path back out does not.
-    const Vec3 way = Vec3::UnitX() * (3 * solid.radius);
-    return enters(geom, pose, point - way, way) && !enters(geom, pose, point, -way);
-  };
-  return std::ranges::any_of(static_, is_in) || std::ranges::any_of(moving_, is_in);
+std::vector<char> PassageFinder::find_inside(const State& state) const {
+  std::vector<geometry::Box> boxes;
+  boxes.reserve(moving_.size());
+  for (const Solid& solid : moving_)
+    boxes.push_back(geometry::swept_box(state.position[solid.body], solid.radius, Vec3::Zero()));
+  geometry::BoxTree moving_tree;
+  moving_tree.set(boxes);
+  std::vector<char> inside(model_->bodies.size(), 0);
+  for (const Mover& mover : movers_) {
+    char& is_in = inside[static_cast<std::size_t>(mover.body)];
+    const geometry::Box centre = geometry::swept_box(state.position[mover.body], 0, Vec3::Zero());
+    const auto look_in = [&](const std::vector<Solid>& solids) {
+      return [&](int solid) {
+        if (is_in == 0 && is_inside(state, mover, solids[static_cast<std::size_t>(solid)])) is_in = 1;
+      };
+    };
+    static_tree_.for_each_near(centre, look_in(static_));
+    moving_tree.for_each_near(centre, look_in(moving_));
+  }
+  return inside;
+}
+
+bool PassageFinder::is_inside(const State& state, const Mover& mover, const Solid& solid) const {
+  const Vec3& point = state.position[mover.body];
+  const Vec3& centre = solid.body == model::no_body ? solid.centre : state.position[solid.body];
+  if ((point - centre).squaredNorm() > solid.radius * solid.radius) return false;
+  if (!rule_.may_touch(mover.geom, solid.geom)) return false;
+  const Geom& geom = model_->geoms[solid.geom];
+  const BodyPose pose = pose_of(state, solid.body);
+  // If the point is inside, a path to it from outside enters the geom, and the path back out does not.
+  const Vec3 way = Vec3::UnitX() * (3 * solid.radius);
+  return enters(geom, pose, point - way, way) && !enters(geom, pose, point, -way);
 }
 
 }  // namespace pbmpi::stability

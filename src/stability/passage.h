@@ -1,11 +1,11 @@
 /// Detects bodies that passed through something.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "geometry/box_tree.h"
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/state.h"
@@ -47,8 +47,8 @@ class PassageFinder {
   std::optional<Passage> find(const model::State& before, std::span<const model::Vec3> from,
                               const model::State& after, Pace pace = Pace::fast) const;
 
-  /// Does the body's centre lie in a solid geom that it may touch?
-  bool is_inside(const model::State& state, int body) const;
+  /// [num_bodies] 1 where the body's centre lies in a solid geom that it may touch.
+  std::vector<char> find_inside(const model::State& state) const;
 
  private:
   struct Mover {
@@ -81,23 +81,12 @@ class PassageFinder {
     int first = 0, second = 0;  ///< bodies
   };
 
-  /// Balls that bound each body along its path, in single precision, so that one is compared with all others
-  /// at little cost.
-  class Reaches {
-   public:
-    void set(std::span<const model::Vec3> position, std::span<const double> squared_lengths,
-             std::span<const Extent> extents);
-    /// [num_bodies] 1 where a body's ball overlaps that of `body`; valid until the next call.
-    std::span<const std::int32_t> meeting(std::size_t body);
-
-   private:
-    std::vector<float> x_, y_, z_, radius_;
-    std::vector<std::int32_t> hits_;
-  };
-
   /// False if no body can have passed a static geom, judged by its position and after find_close_pairs().
   bool may_pass_static(const model::State& after, Pace pace) const;
   void find_close_pairs(std::span<const model::Vec3> from, const model::State& after) const;
+  void find_close_to(int far) const;
+  bool is_far(std::size_t body) const;
+  bool is_inside(const model::State& state, const Mover& mover, const Solid& solid) const;
   std::optional<Passage> through_planes(const Mover& mover, const model::Vec3& from,
                                         const model::Vec3& to) const;
   std::optional<Passage> through_static(const Mover& mover, const model::Vec3& from,
@@ -112,13 +101,17 @@ class PassageFinder {
   std::vector<Extent> extents_;                                           ///< [num_bodies]
   double least_size_ = model::infinity, least_radius_ = model::infinity;  ///< smallest of movers_ [m]
   std::vector<Plane> planes_;
+  geometry::BoxTree static_tree_;  ///< of static_
   // Results of the last call, kept as members to reuse their memory.
   mutable std::vector<model::Vec3> ways_;        ///< [num_bodies] paths of the centres
   mutable std::vector<double> squared_lengths_;  ///< [num_bodies] of ways_
   mutable std::vector<int>
       far_;  ///< bodies whose path differs from the mean by the size of the smallest mover
-  mutable Reaches reaches_;
-  mutable std::vector<Pair> close_;  ///< pairs that may have passed through each other
+  mutable model::Vec3 mean_way_ = model::Vec3::Zero();  ///< [m] mean of ways_
+  mutable std::vector<geometry::Box> reaches_;  ///< [num_bodies] boxes that hold each body along its path
+  mutable geometry::BoxTree reach_tree_;        ///< of reaches_
+  mutable std::vector<int> near_;               ///< of static_, those near a path
+  mutable std::vector<Pair> close_;             ///< pairs that may have passed through each other
 };
 
 }  // namespace pbmpi::stability

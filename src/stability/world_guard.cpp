@@ -129,8 +129,9 @@ void WorldGuard::Replay::freeze() {
 }
 
 void WorldGuard::Replay::go_on_from(Watched&& next) {
+  const std::vector<char> inside = guard_->guards_.passages().find_inside(next.state);
   for (int body = 0; body < next.state.num_bodies(); ++body) {
-    if (!guard_->guards_.passages().is_inside(next.state, body)) from_[body] = next.state.position[body];
+    if (inside[body] == 0) from_[body] = next.state.position[body];
   }
   now_ = std::move(next);
   targets_.pass(*guard_->model_, step_);

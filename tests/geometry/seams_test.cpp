@@ -262,39 +262,5 @@ TEST(LieOnFace, gives_a_lying_capsule_both_ends_and_a_standing_cylinder_four_poi
   }
 }
 
-TEST(CellGrid, finds_every_box_that_holds_a_point) {
-  CellGrid grid;
-  std::vector<Box> boxes;
-  const auto number = [](std::uint64_t i, std::uint64_t k) { return core::to_unit(core::mix_key(7, i, k)); };
-  for (int i = 0; i < 300; ++i) {
-    Box box;
-    const double scale = std::ldexp(1.0, i % 9 - 5);
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double middle = 8 * number(i, k) - 4, half = scale * number(i, k + 3);
-      box.min[k] = middle - half;
-      box.max[k] = middle + half;
-    }
-    boxes.push_back(box);
-    grid.add(i, i % 2, box);
-  }
-  grid.finish();
-  for (int i = 0; i < 500; ++i) {
-    const Vec3 point(8 * number(i, 10) - 4, 8 * number(i, 11) - 4, 8 * number(i, 12) - 4);
-    Box at;
-    for (std::size_t k = 0; k < 3; ++k) at.min[k] = at.max[k] = point[static_cast<int>(k)];
-    for (const int group : {0, 1}) {
-      std::vector<char> found(boxes.size(), 0);
-      grid.any_at(group, point, [&](int item) {
-        found[static_cast<std::size_t>(item)] = 1;
-        return false;
-      });
-      for (std::size_t item = 0; item < boxes.size(); ++item) {
-        const bool holds = static_cast<int>(item % 2) == group && boxes[item].overlaps(at);
-        EXPECT_TRUE(!holds || found[item] != 0);
-      }
-    }
-  }
-}
-
 }  // namespace
 }  // namespace pbmpi::geometry

@@ -51,7 +51,11 @@ TEST(CrossBroadPhase, finds_the_pairs_of_the_whole_world_that_cross_owners) {
       boxes[space].include(geometry::geom_box(model.geoms[geom], poses[model.geoms[geom].body]));
   }
   std::vector<GeomPair> all, found;
-  BroadPhase(model, support::all_geoms(model)).find_pairs(poses, nullptr, all);
+  std::vector<geometry::Box> geom_boxes;
+  for (const model::Geom& geom : model.geoms)
+    geom_boxes.push_back(geom.body == model::no_body ? geometry::Box()
+                                                     : geometry::geom_box(geom, poses[geom.body]));
+  BroadPhase(model, support::all_geoms(model)).append_pairs(geom_boxes, nullptr, all);
   const SpaceBodies bodies(model, map);
   CrossBroadPhase cross(model, bodies);
   for (const std::vector<int>& owner :

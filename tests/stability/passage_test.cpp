@@ -129,9 +129,9 @@ TEST(Passage, a_centre_in_the_plate_is_inside) {
   const Model model = ball_and_cube();
   State state = initial_state(model);
   const PassageFinder finder(model);
-  EXPECT_FALSE(finder.is_inside(state, 0));
+  EXPECT_FALSE(finder.find_inside(state)[0]);
   state.position[0] = Vec3(0.3, 0.1, 0.995);
-  EXPECT_TRUE(finder.is_inside(state, 0));
+  EXPECT_TRUE(finder.find_inside(state)[0]);
 }
 
 TEST(Passage, of_a_body_whose_centre_is_outside_its_geoms_is_not_looked_for) {

@@ -117,11 +117,14 @@ void PairTable::add(int geom, const int* others, std::uint32_t bits) {
   for (; bits != 0; bits &= bits - 1) add(geom, others[std::countr_zero(bits)]);
 }
 
-void PairTable::add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses,
+std::span<geometry::Box> PairTable::boxes(std::size_t count) {
+  boxes_.resize(std::max(boxes_.size(), count));
+  return std::span(boxes_).first(count);
+}
+
+void PairTable::add_all(BroadPhase& broad_phase, std::span<const geometry::Box> boxes,
                         const AwakeGeoms* awake) {
-  std::vector<model::GeomPair> pairs;
-  broad_phase.find_pairs(poses, awake, pairs);
-  pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
+  broad_phase.append_pairs(boxes, awake, pairs_);
 }
 
 void PairTable::finish_world() {

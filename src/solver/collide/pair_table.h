@@ -87,9 +87,10 @@ class PairTable {
   void add(int first, int second);
   /// Adds `geom` with each geom of `others` whose bit is set.
   void add(int geom, const int* others, std::uint32_t bits);
-  /// Adds all pairs that this broad phase finds in the current world; only those with an awake geom, if
-  /// `awake` is given.
-  void add_all(BroadPhase& broad_phase, std::span<const model::BodyPose> poses, const AwakeGeoms* awake);
+  /// Memory for the boxes of a world's geoms, valid until the next call.
+  std::span<geometry::Box> boxes(std::size_t count);
+  /// Adds all pairs that this broad phase finds in the current world, see BroadPhase::append_pairs().
+  void add_all(BroadPhase& broad_phase, std::span<const geometry::Box> boxes, const AwakeGeoms* awake);
   /// After the last pair of a world: puts its pairs in canonical order.
   void finish_world();
   /// After the last world: fills the columns up to multiples of num_lanes.
@@ -139,6 +140,7 @@ class PairTable {
   const GeomOrder* order_;  ///< borrowed
   bool kernels_ = true;     ///< false: all pairs are of kind `other`
   int world_ = 0;
+  std::vector<geometry::Box> boxes_;
   std::vector<int> world_begin_;  ///< [worlds + 1] into pairs
   std::vector<model::GeomPair> pairs_;
   std::vector<Touch> touches_;      ///< [pairs]

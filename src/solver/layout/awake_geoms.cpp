@@ -4,13 +4,10 @@ namespace pbmpi::solver {
 
 void AwakeGeoms::find(const ActiveBodies& awake, int world) {
   words_.assign(swept_.size() / 32 + 1, 0);
-  geom_awake_.assign(model_->geoms.size(), 0);
   chunks_.clear();
   for (std::size_t i = 0; i < swept_.size(); ++i) {
-    const auto geom = static_cast<std::size_t>(swept_[i]);
-    const int body = model_->geoms[geom].body;
+    const int body = model_->geoms[static_cast<std::size_t>(swept_[i])].body;
     if (body == model::no_body || !awake.contains(world, body)) continue;
-    geom_awake_[geom] = 1;
     words_[i / 32] |= std::uint32_t{1} << (i % 32);
     const int first = static_cast<int>(i) / num_lanes_ * num_lanes_;
     if (chunks_.empty() || chunks_.back() != first) chunks_.push_back(first);

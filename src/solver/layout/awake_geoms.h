@@ -28,8 +28,6 @@ class AwakeGeoms {
   std::uint32_t bits(int first) const { return words_.data()[first / 32] >> (first % 32); }
   /// The first geoms of the chunks that have an awake geom, ascending.
   std::span<const int> chunks() const { return {chunks_.data(), chunks_.size()}; }
-  /// Is this geom of the model swept and awake?
-  bool has_geom(int geom) const { return geom_awake_[static_cast<std::size_t>(geom)] != 0; }
 
  private:
   const model::Model* model_;
@@ -37,7 +35,6 @@ class AwakeGeoms {
   int num_lanes_;
   std::vector<std::uint32_t> words_;
   std::vector<int> chunks_;
-  std::vector<char> geom_awake_;  ///< [geoms of the model]
 };
 
 }  // namespace pbmpi::solver

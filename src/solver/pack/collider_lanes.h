@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "geometry/seams.h"
 #include "solver/collide/broad_phase.h"
 #include "solver/collide/group_boxes.h"
@@ -43,17 +44,17 @@ class ColliderLanes {
 
  private:
   /// Above most_ungrouped_geoms groups of geoms are tested before their geoms; above most_tested_geoms geoms
-  /// are sorted.
+  /// have a BroadPhase.
   static constexpr int most_ungrouped_geoms = 96;
   static constexpr int most_tested_geoms = GroupBoxes<T>::group_size * GroupBoxes<T>::most_groups;
 
   struct World {
     const model::Model* model = nullptr;
     model::NarrowPhase* fallback = nullptr;
-    std::span<const int> geoms;                ///< swept
-    int first_column = 0;                      ///< of the swept geoms
-    std::unique_ptr<MayTouchTable> may_touch;  ///< of the swept geoms; none if they are sorted
-    std::unique_ptr<BroadPhase> sorting;
+    std::span<const int> geoms;                    ///< swept
+    int first_column = 0;                          ///< of the swept geoms
+    std::unique_ptr<MayTouchTable> may_touch;      ///< of the swept geoms; none if there are too many
+    std::unique_ptr<BroadPhase> broad_phase;       ///< of the swept geoms, if there are too many
     std::unique_ptr<const geometry::Seams> seams;  ///< none where no geoms touch that keep together
     double margin_m = 0;
     bool lanes_collide = true;
@@ -63,7 +64,9 @@ class ColliderLanes {
   static void find_touchable(World& world, std::span<const std::int32_t> broken_in);
   void update_boxes(const WorldLanes<T>& lanes);
   void find_awake(const WorldLanes<T>& lanes);
-  void find_pairs(const WorldLanes<T>& lanes, int world);
+  void find_pairs(int world);
+  /// The boxes of a world's swept geoms, valid until the next call.
+  std::span<const geometry::Box> boxes_of(const World& world);
   /// Tests the i-th swept geom against all that come after it.
   void test_solid(const World& world, int i);
   /// Tests the i-th swept geom against those of [first, last) only; `box` is its own, in all lanes.
@@ -122,7 +125,8 @@ void ColliderLanes<T>::find_touchable(World& world, std::span<const std::int32_t
   if (world.geoms.size() <= most_tested_geoms) {
     world.may_touch = std::make_unique<MayTouchTable>(*world.model, world.geoms, broken_in);
   } else {
-    world.sorting = std::make_unique<BroadPhase>(*world.model, world.geoms, world.margin_m, broken_in);
+    if (!world.broad_phase) world.broad_phase = std::make_unique<BroadPhase>(*world.model, world.geoms);
+    world.broad_phase->set_broken(broken_in);
   }
 }
 
@@ -131,7 +135,7 @@ void ColliderLanes<T>::collide(const WorldLanes<T>& lanes, std::span<std::vector
   update_boxes(lanes);
   table_.clear();
   const int num_worlds = static_cast<int>(worlds_.size());
-  for (int world = 0; world < num_worlds; ++world) find_pairs(lanes, world);
+  for (int world = 0; world < num_worlds; ++world) find_pairs(world);
   run_kernels();
   for (int world = 0; world < num_worlds; ++world) {
     contacts[static_cast<std::size_t>(world)].clear();
@@ -173,15 +177,27 @@ void ColliderLanes<T>::find_awake(const WorldLanes<T>& lanes) {
 }
 
 template <class T>
-void ColliderLanes<T>::find_pairs(const WorldLanes<T>& lanes, int index) {
+std::span<const geometry::Box> ColliderLanes<T>::boxes_of(const World& world) {
+  const std::span<geometry::Box> boxes = table_.boxes(world.geoms.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Scalar* low = geoms_.box_min[k].data() + world.first_column;
+    const Scalar* high = geoms_.box_max[k].data() + world.first_column;
+    for (std::size_t i = 0; i < world.geoms.size(); ++i) {
+      boxes[i].min[k] = low[i];
+      boxes[i].max[k] = high[i];
+    }
+  }
+  return boxes;
+}
+
+template <class T>
+void ColliderLanes<T>::find_pairs(int index) {
   const World& world = worlds_[static_cast<std::size_t>(index)];
   table_.start_world(index);
   if (world.awake && world.awake->chunks().empty()) {
     // nothing can begin to touch
-  } else if (world.sorting) {
-    lanes.poses(index, poses_.all(world.model->num_bodies()));
-    table_.add_all(*world.sorting, poses_.all(world.model->num_bodies()),
-                   world.awake ? &*world.awake : nullptr);
+  } else if (world.broad_phase) {
+    table_.add_all(*world.broad_phase, boxes_of(world), world.awake ? &*world.awake : nullptr);
   } else {
     const int count = static_cast<int>(world.geoms.size());
     if (count > most_ungrouped_geoms) groups_.update(geoms_, world.first_column, count);

@@ -39,16 +39,13 @@ CrossBroadPhase::CrossBroadPhase(const model::Model& model, const SpaceBodies& b
 bool CrossBroadPhase::find_neighbours(std::span<const int> owner, std::span<const Box> boxes) {
   neighbours_.resize(boxes.size());
   for (std::vector<int>& spaces : neighbours_) spaces.clear();
-  bool any = false;
-  for (std::size_t a = 0; a < boxes.size(); ++a) {
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-      if (owner[a] == owner[b] || !boxes[a].overlaps(boxes[b])) continue;
-      neighbours_[a].push_back(static_cast<int>(b));
-      neighbours_[b].push_back(static_cast<int>(a));
-      any = true;
-    }
+  space_tree_.set(boxes);
+  for (std::size_t space = 0; space < boxes.size(); ++space) {
+    space_tree_.for_each_near(boxes[space], [&](int other) {
+      if (owner[space] != owner[other]) neighbours_[space].push_back(other);
+    });
   }
-  return any;
+  return std::ranges::any_of(neighbours_, [](const std::vector<int>& spaces) { return !spaces.empty(); });
 }
 
 void CrossBroadPhase::enter(int space, int owner, std::span<const Box> boxes,

@@ -6,13 +6,14 @@
 #include <vector>
 
 #include "geometry/box.h"
+#include "geometry/box_tree.h"
 #include "model/touch_rule.h"
 #include "solver/spaces/space_bodies.h"
 
 namespace pbmpi::solver {
 
-/// Spaces whose boxes do not overlap cost only the test of their boxes; for those that overlap, the geoms in
-/// another space's box are sorted.
+/// Spaces whose boxes do not overlap cost only a look into the tree of their boxes; for those that overlap,
+/// the geoms in another space's box are sorted.
 class CrossBroadPhase {
  public:
   /// `model` and `bodies` are borrowed.
@@ -47,6 +48,7 @@ class CrossBroadPhase {
   const model::Model* model_;
   model::TouchRule rule_;
   const SpaceBodies* bodies_;
+  geometry::BoxTree space_tree_;              ///< of the spaces' boxes
   std::vector<std::vector<int>> neighbours_;  ///< [num_spaces]
   std::vector<Entry> entries_;
   std::vector<std::vector<std::pair<double, int>>> order_;  ///< [owners] begin along the axis, index
