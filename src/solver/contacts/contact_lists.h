@@ -113,18 +113,18 @@ class ContactLists {
   /// `frictionless`: the kind of rows that contacts without friction get; `rough`: the same as with friction.
   explicit ContactLists(ContactKind frictionless) : frictionless_(frictionless) {}
 
-  /// `rubbing`: the kind of rows that contacts with friction get, rough or patched.
-  void clear(ContactKind rubbing) {
+  /// `rubbing`: the kind of rows that contacts with friction get from now on, rough or patched.
+  void start(ContactKind rubbing) { rubbing_ = rubbing; }
+  void clear() {
     for_each([](auto& list) { list.order.clear(); });
     num_colors_ = 0;
-    rubbing_ = rubbing;
   }
 
-  /// Adds the contacts of one world, in canonical order, that belong to bodies with `moves(body)`.
-  /// `place_of(body)`: the lane place of a body or the environment. The contacts must stay valid during the
-  /// step.
-  template <class Moves, class PlaceOf>
-  void add_world(int num_bodies, const model::SolvedContacts& solved, Moves moves, PlaceOf place_of) {
+  /// Calls visit(manifold) for those of one world, in canonical order, of which the first body is one with
+  /// `moves(body)`. `place_of(body)`: the lane place of a body or the environment.
+  template <class Moves, class PlaceOf, class Visit>
+  void paint_world(int num_bodies, const model::SolvedContacts& solved, Moves moves, PlaceOf place_of,
+                   Visit visit) {
     const std::span<const model::Contact> contacts = solved.contacts;
     if (!contacts.empty()) painter_.start(num_bodies);
     for (std::size_t begin = 0, end = 0; begin < contacts.size(); begin = end) {
@@ -133,11 +133,16 @@ class ContactLists {
       end = begin + 1;
       if (!moves(first.body_a)) continue;
       while (end < last && belong_together(first, contacts[end])) ++end;
-      const int color = painter_.paint(first.body_a, first.body_b);
-      num_colors_ = std::max(num_colors_, color + 1);
-      order_of(first).add(solved.part(begin, end - begin), color, place_of(first.body_a),
-                          place_of(first.body_b));
+      const model::SolvedContacts points = solved.part(begin, end - begin);
+      visit(Manifold{points.contacts.data(), points.forces.data(), static_cast<short>(end - begin),
+                     static_cast<short>(painter_.paint(first.body_a, first.body_b)), place_of(first.body_a),
+                     place_of(first.body_b)});
     }
+  }
+  /// Adds a manifold, whose points must stay valid during the step.
+  void add(const Manifold& manifold) {
+    num_colors_ = std::max(num_colors_, manifold.color + 1);
+    order_of(*manifold.points).add(manifold);
   }
 
   void build(const BodyLanes<T>& bodies, const Parameters& parameters) {

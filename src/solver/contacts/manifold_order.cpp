@@ -18,13 +18,11 @@ void ManifoldOrder::clear() {
   next_.clear();
 }
 
-void ManifoldOrder::add(const model::SolvedContacts& points, int color, LanePlace a, LanePlace b) {
-  const auto num_points = static_cast<short>(points.contacts.size());
-  const std::size_t num_buckets = bucket_of(color + 1, most_points);
+void ManifoldOrder::add(const Manifold& manifold) {
+  const std::size_t num_buckets = bucket_of(manifold.color + 1, most_points);
   if (num_buckets > next_.size()) next_.resize(num_buckets, 0);
-  ++next_[bucket_of(color, num_points)];
-  painted_.push_back(
-      {points.contacts.data(), points.forces.data(), num_points, static_cast<short>(color), a, b});
+  ++next_[bucket_of(manifold.color, manifold.num_points)];
+  painted_.push_back(manifold);
 }
 
 /// Fills by_color_ with the indices of painted_.

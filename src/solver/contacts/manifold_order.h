@@ -33,8 +33,8 @@ class ManifoldOrder {
   };
 
   void clear();
-  /// `points` must stay valid until the next clear().
-  void add(const model::SolvedContacts& points, int color, LanePlace a, LanePlace b);
+  /// Its points must stay valid until the next clear().
+  void add(const Manifold& manifold);
 
   /// [slots][num_lanes], by ascending colour, and within a colour by descending number of points, since a
   /// slot takes as long as its longest manifold. Lanes without a manifold idle on `static_slot`, which comes

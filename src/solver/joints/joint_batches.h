@@ -30,11 +30,6 @@ class JointBatches {
     return shapes_[static_cast<std::size_t>(shape)].joints;
   }
 
-  /// Choose which batches a step works on, by the slots of their bodies; at the start all are active.
-  void deactivate_all() {
-    for (Shape& shape : shapes_) std::fill(shape.active.begin(), shape.active.end(), 0);
-  }
-  void activate(int slot);
   /// As many articulations of one shape as there are lanes. Their bodies are the slots first_slot to
   /// end_slot - 1, and no other batch's joint is on any of them.
   struct Batch {
@@ -42,17 +37,15 @@ class JointBatches {
     int first_slot = 0, end_slot = 0;
     bool has_joints = false;
   };
+  /// All batches, in the order of their slots.
+  std::vector<Batch> all() const;
+  /// Chooses the batches that the following calls work on, in the order of their slots; they must stay valid
+  /// until the next call.
+  void activate(std::span<const Batch> batches);
   /// Calls visit(batch) for each active batch, in the order of their slots.
   template <class Visit>
   void for_each_active_batch(Visit visit) const {
-    for (std::size_t s = 0; s < shapes_.size(); ++s) {
-      const Shape& shape = shapes_[s];
-      for (std::size_t i = 0; i < shape.active.size(); ++i) {
-        const int first_slot = shape.first_slot + static_cast<int>(i) * shape.num_bodies;
-        if (shape.active[i])
-          visit(Batch{s, i, first_slot, first_slot + shape.num_bodies, shape.num_joints > 0});
-      }
-    }
+    for (const Batch& batch : active_) visit(batch);
   }
 
   /// A joint has broken in this lane: from now on it exerts nothing.
@@ -151,7 +144,7 @@ class JointBatches {
   struct Shape {
     std::size_t num_joints = 0;  ///< of one articulation
     int first_slot = 0, num_bodies = 0;
-    std::vector<char> active;          ///< [num_batches]
+    std::size_t num_batches = 0;
     std::vector<JointLane<V>> joints;  ///< [num_batches][num_joints]
     std::vector<RowsAt> rows;          ///< [num_batches][num_joints]
     std::vector<std::size_t> order;    ///< of the joints within a batch, in this sweep
@@ -183,7 +176,18 @@ class JointBatches {
   template <class Visit>
   void for_each_rows(const Batch& batch, Visit visit);
 
+  /// Calls visit(shape, its active batches) for each shape that has any.
+  template <class Visit>
+  void for_each_active_shape(Visit visit) const {
+    for (std::size_t i = 0; i + 1 < first_of_shape_.size(); ++i) {
+      const auto batches = active_.subspan(first_of_shape_[i], first_of_shape_[i + 1] - first_of_shape_[i]);
+      visit(batches.front().shape, batches);
+    }
+  }
+
   std::vector<Shape> shapes_;
+  std::span<const Batch> active_;
+  std::vector<std::size_t> first_of_shape_;  ///< in active_, of each shape that has any there; and the end
   /// [kinds]
   decltype(rows_of_all(std::make_index_sequence<model::num_joint_kinds>())) rows_;
 };
@@ -195,7 +199,7 @@ int JointBatches<T>::add_shape(const ArticulationShape& shape, int first_slot, i
   batches.num_joints = shape.joints.size();
   batches.first_slot = first_slot;
   batches.num_bodies = shape.num_bodies;
-  batches.active.assign(static_cast<std::size_t>(num_batches), 1);
+  batches.num_batches = static_cast<std::size_t>(num_batches);
   batches.order.resize(batches.num_joints);
   for (int batch = 0; batch < num_batches; ++batch) {
     const int first = first_slot + batch * shape.num_bodies;
@@ -218,12 +222,26 @@ int JointBatches<T>::add_shape(const ArticulationShape& shape, int first_slot, i
 }
 
 template <class T>
-void JointBatches<T>::activate(int slot) {
-  for (Shape& shape : shapes_) {
-    const int batch = (slot - shape.first_slot) / shape.num_bodies;
-    if (slot < shape.first_slot || batch >= static_cast<int>(shape.active.size())) continue;
-    shape.active[static_cast<std::size_t>(batch)] = 1;
+std::vector<typename JointBatches<T>::Batch> JointBatches<T>::all() const {
+  std::vector<Batch> batches;
+  for (std::size_t s = 0; s < shapes_.size(); ++s) {
+    const Shape& shape = shapes_[s];
+    for (std::size_t i = 0; i < shape.num_batches; ++i) {
+      const int first_slot = shape.first_slot + static_cast<int>(i) * shape.num_bodies;
+      batches.push_back({s, i, first_slot, first_slot + shape.num_bodies, shape.num_joints > 0});
+    }
   }
+  return batches;
+}
+
+template <class T>
+void JointBatches<T>::activate(std::span<const Batch> batches) {
+  active_ = batches;
+  first_of_shape_.clear();
+  for (std::size_t i = 0; i < active_.size(); ++i) {
+    if (i == 0 || active_[i].shape != active_[i - 1].shape) first_of_shape_.push_back(i);
+  }
+  first_of_shape_.push_back(active_.size());
 }
 
 template <class T>
@@ -241,17 +259,20 @@ void JointBatches<T>::for_each_rows(const Batch& batch, Visit visit) {
 
 template <class T>
 void JointBatches<T>::order_as_given() {
-  for (Shape& shape : shapes_) std::iota(shape.order.begin(), shape.order.end(), std::size_t{0});
+  for_each_active_shape([&](std::size_t shape, std::span<const Batch>) {
+    std::vector<std::size_t>& order = shapes_[shape].order;
+    std::iota(order.begin(), order.end(), std::size_t{0});
+  });
 }
 
 template <class T>
 void JointBatches<T>::shuffle(std::uint64_t key) {
   order_as_given();
-  for (Shape& shape : shapes_) {
-    for (std::size_t i = shape.order.size(); i > 1; --i) {
-      std::swap(shape.order[i - 1], shape.order[core::mix_key(key, i, 0) % i]);
-    }
-  }
+  for_each_active_shape([&](std::size_t shape, std::span<const Batch>) {
+    std::vector<std::size_t>& order = shapes_[shape].order;
+    for (std::size_t i = order.size(); i > 1; --i)
+      std::swap(order[i - 1], order[core::mix_key(key, i, 0) % i]);
+  });
 }
 
 /// Goes joint by joint, each in all batches in turn: batches share no body, so that the processor works on
@@ -260,21 +281,20 @@ template <class T>
 template <class SweptLanes>
 void JointBatches<T>::sweep(const JointSolver<T>& solver, const SweptLanes& swept_lanes, bool as_given,
                             BodyLanes<T>& bodies) {
-  for (std::size_t s = 0; s < shapes_.size(); ++s) {
+  for_each_active_shape([&](std::size_t s, std::span<const Batch> batches) {
     const Shape& shape = shapes_[s];
     for (std::size_t next = 0; next < shape.num_joints; ++next) {
       const std::size_t joint = as_given ? next : shape.order[next];
-      for (std::size_t batch = 0; batch < shape.active.size(); ++batch) {
-        if (!shape.active[batch]) continue;
-        const RowsAt at = shape.rows[batch * shape.num_joints + joint];
+      for (const Batch& batch : batches) {
+        const RowsAt at = shape.rows[batch.index * shape.num_joints + joint];
         with_kind(at.kind, [&](auto kind) {
           auto& rows = rows_of<kind.value>()[static_cast<std::size_t>(at.index)];
-          const V swept = swept_lanes(s, batch, joint, rows);
+          const V swept = swept_lanes(s, batch.index, joint, rows);
           if (T::any(swept)) solver.solve(rows, swept, bodies);
         });
       }
     }
-  }
+  });
 }
 
 template <class T>

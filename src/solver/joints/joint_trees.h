@@ -99,11 +99,8 @@ class JointTrees {
   bool has_rotors() const {
     return std::ranges::any_of(shapes_, [](const Shape& shape) { return shape.has_rotors; });
   }
-  bool has_limited() const {
-    return std::ranges::any_of(shapes_, [](const Shape& shape) {
-      return std::ranges::any_of(shape.limited, [](const LaneFlags& lanes) { return T::any(lanes.flags); });
-    });
-  }
+  /// Has factor() found limits in an active batch?
+  bool has_limited() const { return has_limited_; }
 
  private:
   /// 1 or 0 lane by lane.
@@ -172,6 +169,8 @@ class JointTrees {
       }
     });
   }
+  void factor_tree(Scalar cfm, Shape& shape, TreeSolver<T>& tree, const Batch& batch,
+                   const BodyLanes<T>& bodies);
   /// 1 in the lanes that are exact and have a joint at a limit, else 0.
   V find_limited(const Shape& shape, const Batch& batch);
   /// `where`: 1 in the lanes that take the solution, else 0.
@@ -180,25 +179,33 @@ class JointTrees {
 
   JointBatches<T>& joints_;
   std::vector<Shape> shapes_;
+  bool has_limited_ = false;
 };
 
 template <class T>
 void JointTrees<T>::factor(Which which, Scalar cfm, const BodyLanes<T>& bodies) {
+  has_limited_ = false;
   for_each_tree([&](Shape& shape, TreeSolver<T>& tree, const Batch& batch) {
-    if (!shape.belongs_to(which)) return;
-    shape.limited[batch.index].flags = find_limited(shape, batch);
-    for (const TreeNode& node : shape.nodes)
-      tree.start_body(node.body, bodies.bodies[batch.first_slot + node.body]);
-    for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
-      if (node->joint < 0) {
-        tree.close_root(node->body);
-      } else {
-        with_rows(batch, shape, node->joint, [&](const auto& rows, auto count) {
-          tree.template eliminate<count.value>(node->body, shape.parent_of(*node), node->is_first, cfm, rows);
-        });
-      }
-    }
+    if (shape.belongs_to(which)) factor_tree(cfm, shape, tree, batch, bodies);
+    has_limited_ = has_limited_ || T::any(shape.limited[batch.index].flags);
   });
+}
+
+template <class T>
+void JointTrees<T>::factor_tree(Scalar cfm, Shape& shape, TreeSolver<T>& tree, const Batch& batch,
+                                const BodyLanes<T>& bodies) {
+  shape.limited[batch.index].flags = find_limited(shape, batch);
+  for (const TreeNode& node : shape.nodes)
+    tree.start_body(node.body, bodies.bodies[batch.first_slot + node.body]);
+  for (auto node = shape.nodes.rbegin(); node != shape.nodes.rend(); ++node) {
+    if (node->joint < 0) {
+      tree.close_root(node->body);
+    } else {
+      with_rows(batch, shape, node->joint, [&](const auto& rows, auto count) {
+        tree.template eliminate<count.value>(node->body, shape.parent_of(*node), node->is_first, cfm, rows);
+      });
+    }
+  }
 }
 
 template <class T>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "solver/layout/articulation.h"
@@ -25,8 +24,9 @@ class LanePlaces {
     int first_slot = 0, num_batches = 0;
   };
 
-  /// Places bodies shape by shape, and within a shape world by world.
-  LanePlaces(std::span<const PackedWorld> worlds, int num_lanes);
+  /// Places bodies shape by shape, within a shape cell by cell, and within a cell world by world. Worlds are
+  /// cut into cells of at most `most_bodies`; each cell begins a batch.
+  LanePlaces(std::span<const PackedWorld> worlds, int num_lanes, int most_bodies);
 
   const std::vector<ShapePlace>& shapes() const { return shapes_; }
   /// The number of slots without the environment's static slot, which comes after them.
@@ -49,6 +49,9 @@ class LanePlaces {
   }
   /// Does the articulation that a slot belongs to have joints?
   bool has_joints(int slot) const { return slots_[static_cast<std::size_t>(slot)].has_joints; }
+  int num_cells() const { return num_cells_; }
+  /// The cell of all bodies of a slot, whichever world they belong to.
+  int cell(int slot) const { return slots_[static_cast<std::size_t>(slot)].cell; }
   /// How many lanes of a slot, from the first on, have a body.
   int num_used(int slot) const { return slots_[static_cast<std::size_t>(slot)].num_used; }
 
@@ -59,14 +62,20 @@ class LanePlaces {
   };
   struct Slot {
     bool has_joints = false;
-    int num_used = 0;
+    int num_used = 0, cell = 0;
   };
-  /// Articulations of one shape, with their worlds.
-  using Copies = std::vector<std::pair<int, const Articulation*>>;
+  struct Copy {
+    int cell = 0, world = 0;
+    const Articulation* articulation = nullptr;
+  };
+  /// Articulations of one shape.
+  using Copies = std::vector<Copy>;
 
-  void place(const Copies& copies);
+  void place(Copies& copies);
+  void add_batch(int cell);
+  void place(const Copy& copy, int batch, int lane);
 
-  int num_lanes_;
+  int num_lanes_, num_cells_ = 0;
   std::vector<World> worlds_;
   std::vector<ShapePlace> shapes_;
   std::vector<Slot> slots_;    ///< without the static one

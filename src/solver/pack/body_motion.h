@@ -1,6 +1,8 @@
 /// Forces on the bodies of a pack, and their motion.
 #pragma once
 
+#include <algorithm>
+
 #include "core/elementary.h"
 #include "solver/layout/pack_laws.h"
 #include "solver/pack/world_lanes.h"
@@ -31,6 +33,14 @@ class BodyMotion {
   void damp(const Batch& batch, double h);
 
  private:
+  /// Moves `next` to the first slot with the torque from the batch on; returns the end of all.
+  const GyroscopicSlot<V>* find_turning(const Batch& batch, const GyroscopicSlot<V>*& next) const {
+    const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
+    if (next != end && next->slot < batch.first_slot)
+      next = std::ranges::lower_bound(next, end, batch.first_slot, {}, &GyroscopicSlot<V>::slot);
+    return end;
+  }
+
   double linear_damping_, angular_damping_;  ///< [1/s]
   WorldLanes<T>& worlds_;
 };
@@ -38,8 +48,7 @@ class BodyMotion {
 /// `next`: the first slot with the torque that no earlier batch had; advances to that of the next batch.
 template <class T>
 void BodyMotion<T>::apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next) {
-  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
-  while (next != end && next->slot < batch.first_slot) ++next;
+  const GyroscopicSlot<V>* const end = find_turning(batch, next);
   for (; next != end && next->slot < batch.end_slot; ++next)
     apply_gyroscopic_torque<T>(worlds_.bodies.bodies[next->slot], next->has_torque,
                                worlds_.bodies.twists[next->slot], dt);
@@ -60,8 +69,7 @@ void BodyMotion<T>::look_ahead(const Batch& batch, Scalar h, const GyroscopicSlo
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot)
     bodies.expected[slot] = bodies.twists[slot];
   if (next == nullptr) return;
-  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
-  while (next != end && next->slot < batch.first_slot) ++next;
+  const GyroscopicSlot<V>* const end = find_turning(batch, next);
   for (; next != end && next->slot < batch.end_slot; ++next)
     bodies.half_turnings[next->slot] = half_turning<T>(bodies.bodies[next->slot], next->has_torque,
                                                        bodies.expected[next->slot].angular, h / 2);
@@ -70,7 +78,7 @@ void BodyMotion<T>::look_ahead(const Batch& batch, Scalar h, const GyroscopicSlo
 template <class T>
 template <bool last>
 void BodyMotion<T>::move(const Batch& batch, Scalar h, const V& exact, const GyroscopicSlot<V>*& next) {
-  const GyroscopicSlot<V>* const end = worlds_.gyroscopic.data() + worlds_.gyroscopic.size();
+  const GyroscopicSlot<V>* const end = next == nullptr ? nullptr : find_turning(batch, next);
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     BodyLane<V>& body = worlds_.bodies.bodies[slot];
     Twist<V>& twist = worlds_.bodies.twists[slot];

@@ -1,4 +1,4 @@
-/// One step of a pack, substeps and iterations included, from the contacts to the bodies' new poses.
+/// One step of a pack, chunk by chunk, from the contacts to the bodies' new poses.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,7 @@
 #include "solver/pack/newton_lanes.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/residual_meter.h"
+#include "solver/pack/step_chunks.h"
 #include "solver/pack/step_laws.h"
 
 namespace pbmpi::solver {
@@ -42,10 +43,13 @@ class StepLanes {
  private:
   using Batch = typename JointBatches<T>::Batch;
 
-  void begin(Contacts contacts, const StepParameters& parameters);
-  void sort_contacts(Contacts contacts);
+  using Chunk = typename StepChunks<T>::Chunk;
 
-  void touch_trees(int world, std::span<const model::Contact> contacts);
+  void begin(Contacts contacts, const StepParameters& parameters);
+  void find_chunks(Contacts contacts);
+  void touch_trees(const Manifold& manifold);
+  void begin_chunk(const Chunk& chunk);
+  void take(int chunk, core::LapTimer& timer);
   void damp(const Batch& batch) {
     if (passes_.damping) motion_.damp(batch, parameters_.substep_s());
   }
@@ -92,13 +96,14 @@ class StepLanes {
     if (passes.idle_friction) return ContactKind::rough;
     return passes.turning_contacts ? ContactKind::smooth : ContactKind::central;
   }
-  stepping::Residuals measure_residuals(int world) const;
+  void measure_residuals(int chunk);
 
   PackLaws pack_laws_;
   const Passes& passes_;
   WorldLanes<T>& worlds_;
   BodyMotion<T> motion_;
-  ContactLists<T> contacts_;
+  StepChunks<T> chunks_;
+  ContactLists<T> contacts_;  ///< of the current chunk
   ContactTwists<T> twists_;
   std::optional<JointTrees<T>> trees_;  ///< none in a step that solves no joints exactly
   ApparentMasses<T> masses_;            ///< of the current step
@@ -109,28 +114,27 @@ class StepLanes {
 };
 
 template <class T>
-void StepLanes<T>::sort_contacts(Contacts contacts) {
-  contacts_.clear(parameters_.friction == stepping::Friction::patch ? ContactKind::patched
-                                                                    : ContactKind::rough);
+void StepLanes<T>::find_chunks(Contacts contacts) {
+  chunks_.start(worlds_.places);
   if (trees_) trees_->start_step();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
-    const auto w = static_cast<std::size_t>(world);
-    model::SolvedContacts solved = contacts[w];
+    model::SolvedContacts solved = contacts[static_cast<std::size_t>(world)];
     if (!hands_out_forces()) solved.forces = {};
-    contacts_.add_world(
+    contacts_.paint_world(
         worlds_.model(world).num_bodies(), solved, [&](int body) { return worlds_.moves(world, body); },
-        [&](int body) { return worlds_.places.body(world, body); });
-    if (trees_) touch_trees(world, solved.contacts);
+        [&](int body) { return worlds_.places.body(world, body); },
+        [&](const Manifold& manifold) {
+          chunks_.add(manifold);
+          if (trees_) touch_trees(manifold);
+        });
   }
+  chunks_.cut(worlds_.active_batches());
 }
 
 template <class T>
-void StepLanes<T>::touch_trees(int world, std::span<const model::Contact> contacts) {
-  for (const model::Contact& contact : contacts) {
-    if (!worlds_.moves(world, contact.body_a)) continue;
-    trees_->touch(worlds_.places.body(world, contact.body_a));
-    if (contact.body_b != model::no_body) trees_->touch(worlds_.places.body(world, contact.body_b));
-  }
+void StepLanes<T>::touch_trees(const Manifold& manifold) {
+  trees_->touch(manifold.a);
+  if (manifold.b.slot != worlds_.bodies.static_slot) trees_->touch(manifold.b);
 }
 
 template <class T>
@@ -349,15 +353,25 @@ void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
   trees_.emplace(worlds_.places.shapes(), solver == stepping::JointSolver::tree, worlds_.joints);
 }
 
-/// Everything before the sweeps of the first substep.
 template <class T>
 void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters) {
   choose_trees(parameters.joint_solver);
   parameters_ = parameters;
   laws_ = {pack_laws_, passes_, parameters};
+  contacts_.start(parameters_.friction == stepping::Friction::patch ? ContactKind::patched
+                                                                    : ContactKind::rough);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
-  sort_contacts(contacts);
+  find_chunks(contacts);
+  residuals_.assign(static_cast<std::size_t>(worlds_.num_worlds()), {});
+}
+
+/// Everything before the sweeps of the first substep.
+template <class T>
+void StepLanes<T>::begin_chunk(const Chunk& chunk) {
+  worlds_.joints.activate(chunk.batches);
+  contacts_.clear();
+  for (const Manifold& manifold : chunk.manifolds) contacts_.add(manifold);
   twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
   substep_ = 0;
   start_step();
@@ -381,8 +395,16 @@ template <class T>
 void StepLanes<T>::run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
   core::LapTimer timer(times);
   begin(contacts, parameters);
+  for (int chunk = 0; chunk < chunks_.size(); ++chunk) take(chunk, timer);
+  if (passes_.holds_bodies()) worlds_.restore_held();
+  timer.lap(core::Phase::integrate);
+}
+
+template <class T>
+void StepLanes<T>::take(int chunk, core::LapTimer& timer) {
+  begin_chunk(chunks_[chunk]);
   timer.lap(core::Phase::rows);
-  while (substep_ + 1 < parameters.substeps) {
+  while (substep_ + 1 < parameters_.substeps) {
     end_sweeps();
     end_substep<false>();
     timer.lap(core::Phase::solve);
@@ -391,28 +413,28 @@ void StepLanes<T>::run(Contacts contacts, const StepParameters& parameters, core
     timer.lap(core::Phase::rows);
   }
   end_sweeps();
-  if (parameters.residuals) {
-    residuals_.clear();
-    for (int world = 0; world < worlds_.num_worlds(); ++world) residuals_.push_back(measure_residuals(world));
-  }
+  if (parameters_.residuals) measure_residuals(chunk);
   if (!relaxes()) remember();
   timer.lap(core::Phase::solve);
   end_substep<true>();
-  if (passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
 }
 
 template <class T>
-stepping::Residuals StepLanes<T>::measure_residuals(int world) const {
-  ResidualMeter<T> meter(laws_.h(), pack_laws_.cfm, laws_.contacts());
-  worlds_.visit_joint_rows(world,
-                           [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });
-  contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {
-    meter.add_contacts(slot, points, worlds_.bodies.contact_twists, [&](int lane, int point) {
-      return point < manifolds[lane].num_points && worlds_.places.world_at(manifolds[lane].a) == world;
+void StepLanes<T>::measure_residuals(int chunk) {
+  for (int world = 0; world < worlds_.num_worlds(); ++world) {
+    ResidualMeter<T> meter(laws_.h(), pack_laws_.cfm, laws_.contacts());
+    worlds_.visit_joint_rows(world, [&](const auto& rows, int lane) {
+      if (chunks_.chunk_at(rows.slot_a) == chunk) meter.add_joint(rows, worlds_.bodies, lane);
     });
-  });
-  return meter.result();
+    contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {
+      meter.add_contacts(slot, points, worlds_.bodies.contact_twists, [&](int lane, int point) {
+        return point < manifolds[lane].num_points && worlds_.places.world_at(manifolds[lane].a) == world;
+      });
+    });
+    stepping::Residuals& all = residuals_[static_cast<std::size_t>(world)];
+    all = stepping::larger(all, meter.result());
+  }
 }
 
 }  // namespace pbmpi::solver

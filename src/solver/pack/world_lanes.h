@@ -2,6 +2,7 @@
 /// small functions all belong to the one interface between models and lanes.)
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "solver/joints/joint_batches.h"
 #include "solver/joints/joint_load.h"
 #include "solver/layout/active_bodies.h"
+#include "solver/layout/cells.h"
 #include "solver/layout/held_lanes.h"
 #include "solver/layout/joints_of_bodies.h"
 #include "solver/layout/lane_places.h"
@@ -25,6 +27,7 @@ class WorldLanes {
  public:
   using V = typename T::V;
   using Scalar = typename T::Scalar;
+  using Batch = typename JointBatches<T>::Batch;
 
   WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes);
 
@@ -50,10 +53,12 @@ class WorldLanes {
   const V* held_lanes(int slot) const { return holds_bodies_ ? held_.lanes(slot) : nullptr; }
   template <class Visit>
   void for_each_active_slot(Visit visit) const {
-    joints.for_each_active_batch([&](const auto& batch) {
+    for (const Batch& batch : active_batches_) {
       for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) visit(slot);
-    });
+    }
   }
+  /// As of the last update_active(), in the order of their slots.
+  std::span<const Batch> active_batches() const { return active_batches_; }
   void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) {
     set_control(world, joint, axis, motor);
   }
@@ -146,20 +151,22 @@ class WorldLanes {
   bool holds_bodies_;
   ActiveBodies active_, awake_;
   BrokenJoints broken_;
-  long active_revision_ = 0;       ///< for which slot_active_ and the batches hold
+  long active_revision_ = 0;  ///< for which slot_active_ and the batches hold
+  std::vector<Batch> all_batches_, active_batches_;
   std::vector<char> slot_active_;  ///< [slots]; empty: all are
   HeldLanes<T> held_;
 };
 
 template <class T>
 WorldLanes<T>::WorldLanes(std::span<const PackedWorld> worlds, const Passes& passes)
-    : places(worlds, T::num_lanes),
+    : places(worlds, T::num_lanes, bodies_in_cache(sizeof(Scalar))),
       bodies(places.num_slots()),
       gravity(static_cast<std::size_t>(places.num_slots()),
               {T::broadcast(0), T::broadcast(0), T::broadcast(0)}),
       holds_bodies_(passes.holds_bodies()) {
   for (const LanePlaces::ShapePlace& at : places.shapes())
     joints.add_shape(at.shape, at.first_slot, at.num_batches, bodies.static_slot);
+  all_batches_ = active_batches_ = joints.all();
   for (int w = 0; w < static_cast<int>(worlds.size()); ++w) {
     const PackedWorld& world = worlds[static_cast<std::size_t>(w)];
     models_.push_back(world.model);
@@ -268,16 +275,17 @@ template <class T>
 void WorldLanes<T>::update_active() {
   if (active_revision_ == active_.revision()) return;
   active_revision_ = active_.revision();
-  joints.deactivate_all();
   slot_active_.assign(gravity.size(), 0);
   for (int world = 0; world < num_worlds(); ++world) {
-    for (const int body : active_.of(world)) {
-      const int slot = places.body(world, body).slot;
-      if (slot_active_[slot] == 0) joints.activate(slot);
-      slot_active_[slot] = 1;
-    }
+    for (const int body : active_.of(world)) slot_active_[places.body(world, body).slot] = 1;
   }
-  for_each_active_slot([&](int slot) { slot_active_[slot] = 1; });
+  active_batches_.clear();
+  for (const Batch& batch : all_batches_) {
+    const auto first = slot_active_.begin() + batch.first_slot, end = slot_active_.begin() + batch.end_slot;
+    if (std::find(first, end, 1) == end) continue;
+    std::fill(first, end, 1);
+    active_batches_.push_back(batch);
+  }
   if (!holds_bodies_) return;
   std::vector<LanePlace> held;
   for (int world = 0; world < num_worlds(); ++world) {

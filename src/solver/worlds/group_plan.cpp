@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/layout/cells.h"
+
 namespace pbmpi::solver {
 namespace {
 
-/// Approximate bytes of velocities and rows in a pack for each body: what a sweep reads again and again
-/// should stay in a core's L2 cache (measured on 100CrSk: 500 to 2,000 bodies in float are equally fast,
-/// twice as many cost a tenth more; in double half as many).
 constexpr int bytes_a_number(stepping::Precision precision) {
   return precision == stepping::Precision::single ? 4 : 8;
 }
-constexpr int bodies_times_bytes_a_pack = 7200;
 
 }  // namespace
 
@@ -41,7 +39,7 @@ bool GroupPlan::contains(int size) const {
 }
 
 int packs_for(std::int64_t num_bodies, double share, stepping::Precision precision, int num_threads) {
-  const int most_bodies = bodies_times_bytes_a_pack / bytes_a_number(precision);
+  const int most_bodies = bodies_in_cache(bytes_a_number(precision));
   const auto for_cache = std::max<std::int64_t>(1, (num_bodies + most_bodies / 2) / most_bodies);
   const auto for_threads = std::max<std::int64_t>(1, std::llround(std::ceil(share * num_threads)));
   return static_cast<int>((for_cache + for_threads - 1) / for_threads * for_threads);
