@@ -11,8 +11,10 @@ ONLY_SETTINGS = ("--own-iterations", "0", "--rest-seconds", "0")
 DEFAULT = ("sor", 1, 14, 1)
 DRAWN = ("CrashSk", "CrashWa", "Fight")
 # Step of the scene over the step, substeps x iterations.
-LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 7, 1),
-         ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
+LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 5, 1),
+         ("sor", 2, 7, 1), ("sor", 4, 3, 1), ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
+HELD = {"sor": ("sor", 1, 14, 1), **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1)
+                                     for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
 
 
 def nature_file(folder):
@@ -82,7 +84,7 @@ def front():
     """Error by nature and time of some settings in all scenes; draws the diagram of docs/accuracy.md."""
     with programs.Folder() as folder:
         cases, scenes = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "quick", "sor", "--law", "soft", "--precision", "double",
-                                                "--iterations", "5", "20", "80", "--substeps", "1", "2", "4", "7", "14", "--estimates", "0",
+                                                "--iterations", "5", "20", "80", "--substeps", "1", "2", "3", "4", "5", "7", "14", "--estimates", "0",
                                                 "--rest-seconds", "0", "--repeats", "3")
     found = {(case["scene"], setting_of(case)): case for case in cases if case["kind"] == "setting"}
     unit = {scene: found[scene, ("quick", 1, 1, 20)]["frame_time_median"] for scene in programs.SCENES}
@@ -95,6 +97,19 @@ def front():
 
     return programs.table(["time over `quick`, 20 iterations: rms, median [mm]", *programs.SCENES],
                           [[setting_name(line), *(cell(scene, line) for scene in programs.SCENES)] for line in LINES])
+
+
+def held():
+    """How the settings of about the default's time fare on the hard cases."""
+    with programs.Folder() as folder:
+        path = folder / "stability.h5"
+        programs.run([programs.BIN / "pbstudy", "stability", "--setting", *HELD, "--poses", "0", "--progress", "never", "--quiet", "-o", path])
+        with h5py.File(path) as file:
+            verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
+    of_setting = [verdicts[settings == name] for name in dict.fromkeys(settings)]
+    counts = [[np.count_nonzero(verdicts == verdict) for verdict in ("pass", "degraded", "broken")] for verdicts in of_setting]
+    return programs.table(["hard cases", "pass", "degraded", "broken"],
+                          [[setting_name(line), *count] for line, count in zip(HELD.values(), counts)])
 
 
 def of_scene(scene, found, unit_s, uncertainty_m):

@@ -13,7 +13,8 @@ struct BoxTree::Centre {
 void BoxTree::set(std::span<const Box> boxes) {
   constexpr std::size_t cost_to_arrange = 32;  // in visits to all items
   num_changed_ += boxes.size() / cost_to_arrange + 1;
-  if (boxes.size() != order_.size() || num_changed_ > boxes.size()) arrange(boxes);
+  const bool order_matters = boxes.size() > fan_out;
+  if (boxes.size() != order_.size() || (order_matters && num_changed_ > boxes.size())) arrange(boxes);
   for (std::size_t i = 0; i < order_.size(); ++i) levels_[0][i] = boxes[static_cast<std::size_t>(order_[i])];
   for (std::size_t level = 1; level < levels_.size(); ++level) {
     for (std::size_t node = 0; node < levels_[level].size(); ++node) refit(level, node);

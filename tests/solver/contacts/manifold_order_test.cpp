@@ -19,8 +19,12 @@ class Deal {
   explicit Deal(const std::vector<Given>& manifolds) {
     int body = 0;
     for (const Given& given : manifolds) {
-      const std::span points = std::span(contacts_).first(static_cast<std::size_t>(given.num_points));
-      order_.add({points, {}}, given.color, {body++, 0}, {static_slot, 0});
+      order_.add({contacts_.data(),
+                  nullptr,
+                  static_cast<short>(given.num_points),
+                  static_cast<short>(given.color),
+                  {body++, 0},
+                  {static_slot, 0}});
     }
     dealt_ = order_.deal(num_lanes, static_slot);
   }
@@ -83,7 +87,7 @@ TEST(ManifoldOrder, lanes_without_a_manifold_idle_on_the_static_slot) {
 TEST(ManifoldOrder, nothing_is_left_of_the_last_deal) {
   ManifoldOrder order;
   std::array<model::Contact, 2> contacts;
-  order.add({contacts, {}}, 5, {0, 0}, {static_slot, 0});
+  order.add({contacts.data(), nullptr, 2, 5, {0, 0}, {static_slot, 0}});
   order.deal(num_lanes, static_slot);
   order.clear();
   EXPECT_TRUE(order.deal(num_lanes, static_slot).empty());
