@@ -43,7 +43,7 @@ TEST(Refusals, of_options_name_what_is_wrong_and_the_nearest) {
         options.settings = {{"stepper", "quick"}, {"substeps", "3"}};
         Batch batch(options);
       },
-      "options of stepper sor");
+      "substeps is an option of stepper sor");
 }
 
 TEST(Refusals, of_scenes_name_the_place) {

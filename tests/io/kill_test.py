@@ -48,6 +48,9 @@ def kill_one(mpiexec, writer, folder, attempt, rng, within_s):
     for name in (f".run{attempt}.h5.lock", f".run{attempt}.h5.xdmf.lock"):
         if os.path.exists(os.path.join(folder, name)):  # a killed run's, held by nobody
             os.remove(os.path.join(folder, name))
+    for name in os.listdir(folder):  # a sidecar that the kill cut short; the next run of this name removes it
+        if name.startswith(f"run{attempt}.h5.xdmf.") and name.endswith(".part"):
+            os.remove(os.path.join(folder, name))
     sample_check.only_file_in(folder, ["log"])
     return committed
 

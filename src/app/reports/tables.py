@@ -115,4 +115,4 @@ def write_tables(path, filetype, *content, is_sealed=False):
         image = image_of(filetype, *content)
         files.replace(target, [image, seal_of(image)] if is_sealed else [image], mode)
     except OSError as error:
-        raise files.refusal_of(error, f"cannot write {path}") from None
+        raise files.refusal_of(error, f"{path}: it cannot be written") from None

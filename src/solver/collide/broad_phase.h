@@ -10,7 +10,7 @@
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/touch_rule.h"
-#include "solver/layout/awake_geoms.h"
+#include "solver/collide/awake_geoms.h"
 
 namespace pbmpi::solver {
 

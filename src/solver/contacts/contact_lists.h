@@ -31,6 +31,7 @@ class ContactList {
     const ContactBuilder<T, two_bodies, kind> builder(bodies, parameters);
     for (std::size_t i = 0; i < slots_.size(); ++i)
       builder.build(&manifolds[i * T::num_lanes], slots_[i], points_of(slots_[i]));
+    may_bounce_ = parameters.restitution && has_bounce();
   }
   /// Advances the rows to the next substep.
   void advance(const BodyLanes<T>& bodies, const Parameters& parameters) {
@@ -52,6 +53,7 @@ class ContactList {
                                                       points_of(slot));
   }
   void bounce(TwistRows<T>& twists, const Parameters& parameters) {
+    if (!may_bounce_) return;
     const ContactSolver<T, two_bodies, kind> solver(parameters, {});
     for (Slot& slot : slots_) solver.bounce(twists, slot, points_of(slot));
   }
@@ -100,7 +102,16 @@ class ContactList {
       points_.resize(static_cast<std::size_t>(num_points));
   }
   Point* points_of(const Slot& slot) { return points_.data() + slot.first_point; }
+  PBMPI_LANES bool has_bounce() {
+    for (const Slot& slot : slots_) {
+      for (int i = 0; i < slot.num_points; ++i) {
+        if (T::any(points_of(slot)[i].bounce)) return true;
+      }
+    }
+    return false;
+  }
 
+  bool may_bounce_ = false;  ///< do bodies of any contact part when they touch in this step?
   std::vector<Slot> slots_;
   std::vector<Point> points_;
 };

@@ -14,7 +14,7 @@
 #include "solver/collide/group_boxes.h"
 #include "solver/collide/may_touch_table.h"
 #include "solver/collide/narrow_lanes.h"
-#include "solver/layout/awake_geoms.h"
+#include "solver/collide/awake_geoms.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/world_lanes.h"
 

@@ -44,7 +44,7 @@
 #include "solver/joints/broken_joints.h"
 #include "solver/layout/active_bodies.h"
 #include "solver/layout/articulation.h"
-#include "solver/layout/awake_geoms.h"
+#include "solver/collide/awake_geoms.h"
 #include "solver/layout/joints_of_bodies.h"
 #include "solver/layout/lane_places.h"
 #include "solver/layout/pack_laws.h"

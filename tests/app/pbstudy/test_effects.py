@@ -121,7 +121,7 @@ class Effects(ProgramTest):
         share = {effect.decode(): 1 - without / counted for effect, counted, without in
                  zip(table["effect"], table["instructions_with"], table["instructions_without"])}
         self.assertGreater(share["friction"], 0.02, "three rows a contact instead of one")
-        self.assertLess(abs(share["restitution"]), 0.01, "demanded: one more test of each contact's approach at most")
+        self.assertLess(abs(share["restitution"]), 0.01, "demanded: a test of each contact's approach at most")
         self.refused(self.study(1, *args[:4], "--effect", "friction", *FAST, "--instructions-from", "counted.h5"),
                      "counted.h5", "same options")
 

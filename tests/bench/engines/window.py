@@ -70,7 +70,7 @@ def shortest(window):
 
 def start_energy(task):
     """[J] of all worlds: after a step of next to no time."""
-    batch = pbmpi.Batch(task["scene"], task["worlds"], stepper="quick", dt=1e-9)
+    batch = pbmpi.Batch(task["scene"], task["worlds"], stepper="quick", dt="1e-9s")
     batch.step(1)
     return float(batch.observable("energy").sum())
 

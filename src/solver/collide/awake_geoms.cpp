@@ -1,4 +1,4 @@
-#include "solver/layout/awake_geoms.h"
+#include "solver/collide/awake_geoms.h"
 
 namespace pbmpi::solver {
 
