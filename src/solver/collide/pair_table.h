@@ -8,8 +8,8 @@
 
 #include "model/contact.h"
 #include "model/model.h"
-#include "solver/collide/broad_phase.h"
 #include "solver/collide/awake_geoms.h"
+#include "solver/collide/broad_phase.h"
 #include "solver/layout/geom_order.h"
 #include "solver/layout/packed_world.h"
 

@@ -10,11 +10,11 @@
 
 #include "geometry/box.h"
 #include "geometry/seams.h"
+#include "solver/collide/awake_geoms.h"
 #include "solver/collide/broad_phase.h"
 #include "solver/collide/group_boxes.h"
 #include "solver/collide/may_touch_table.h"
 #include "solver/collide/narrow_lanes.h"
-#include "solver/collide/awake_geoms.h"
 #include "solver/pack/pack.h"
 #include "solver/pack/world_lanes.h"
 

@@ -51,7 +51,7 @@ template <class T>
 std::vector<T> list(const boost::program_options::variables_map& values, const char* name,
                     std::vector<T> fallback) {
   if (values.count(name) == 0) return fallback;
-  const std::vector<T> given = values[name].as<std::vector<T>>();
+  std::vector<T> given = values[name].as<std::vector<T>>();
   require_distinct(given, "--" + std::string(name));
   return given;
 }
