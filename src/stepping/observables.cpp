@@ -1,7 +1,5 @@
 #include "stepping/observables.h"
 
-#include <algorithm>
-
 namespace pbmpi::stepping {
 namespace {
 
@@ -14,12 +12,6 @@ void take_bodies(const model::State& state, const model::Mechanics& mechanics, O
 }
 
 }  // namespace
-
-Residuals larger(const Residuals& a, const Residuals& b) {
-  return {std::max(a.joint_speed, b.joint_speed), std::max(a.joint_turn, b.joint_turn),
-          std::max(a.complementarity_j, b.complementarity_j), std::max(a.natural_speed, b.natural_speed),
-          std::max(a.natural_turn, b.natural_turn)};
-}
 
 void StateObserver::observe(const model::State& state, Observables& seen) const {
   const model::Mechanics mechanics = mechanics_.measure(state);

@@ -24,9 +24,6 @@ struct Residuals {
   double natural_turn = 0;       ///< [rad/s] natural map of all rows about axes
 };
 
-/// The larger of each.
-Residuals larger(const Residuals& a, const Residuals& b);
-
 /// Numbers of the last step of a frame, except where it says otherwise. With the effect "sleeping", contacts,
 /// rows and penetration cover awake bodies only; islands cover all bodies.
 struct Observables {

@@ -79,7 +79,8 @@ class Cutter {
 
 std::vector<int> find_cells(const model::Model& model, std::span<const Articulation> articulations,
                             int most_bodies) {
-  return articulations.empty() ? std::vector<int>() : Cutter(model, articulations, most_bodies).cut();
+  if (model.num_bodies() <= most_bodies) return std::vector<int>(articulations.size(), 0);
+  return Cutter(model, articulations, most_bodies).cut();
 }
 
 }  // namespace pbmpi::solver

@@ -24,10 +24,12 @@ class StepChunks {
     std::span<const Manifold> manifolds;  ///< in the order in which they were added
   };
 
-  /// Starts a step; `places` is borrowed until the next one.
-  void start(const LanePlaces& places) {
+  /// Starts a step; `places` is borrowed until the next one. `whole`: the step looks at worlds as a whole,
+  /// and everything is one chunk.
+  void start(const LanePlaces& places, bool whole) {
     places_ = &places;
     cells_.reset(places.num_cells());
+    for (int cell = 1; whole && cell < places.num_cells(); ++cell) cells_.unite(0, cell);
     added_.clear();
   }
   void add(const Manifold& manifold) {
@@ -35,8 +37,9 @@ class StepChunks {
       cells_.unite(places_->cell(manifold.a.slot), places_->cell(manifold.b.slot));
     added_.push_back(manifold);
   }
-  /// Cuts these batches and the manifolds into chunks.
+  /// Cuts the manifolds and these batches, which are borrowed, into chunks.
   void cut(std::span<const Batch> batches) {
+    all_batches_ = batches;
     chunk_of_cell_.assign(static_cast<std::size_t>(places_->num_cells()), -1);
     num_chunks_ = 0;
     for (int cell = 0; cell < places_->num_cells(); ++cell) {
@@ -44,6 +47,7 @@ class StepChunks {
       if (chunk_of_cell_[first] < 0) chunk_of_cell_[first] = num_chunks_++;
       chunk_of_cell_[static_cast<std::size_t>(cell)] = chunk_of_cell_[first];
     }
+    if (num_chunks_ == 1) return;
     sort(
         batches, [this](const Batch& batch) { return chunk_at(batch.first_slot); }, batches_, first_batch_);
     sort(
@@ -52,12 +56,12 @@ class StepChunks {
   }
   int size() const { return num_chunks_; }
   Chunk operator[](int chunk) const {
+    if (num_chunks_ == 1) return {all_batches_, added_};
     return {part(batches_, first_batch_, chunk), part(manifolds_, first_manifold_, chunk)};
   }
-  /// The chunk of a slot.
-  int chunk_at(int slot) const { return chunk_of_cell_[static_cast<std::size_t>(places_->cell(slot))]; }
 
  private:
+  int chunk_at(int slot) const { return chunk_of_cell_[static_cast<std::size_t>(places_->cell(slot))]; }
   template <class Item, class ChunkOf>
   void sort(std::span<const Item> items, ChunkOf chunk_of, std::vector<Item>& sorted,
             std::vector<std::size_t>& first) {
@@ -79,8 +83,11 @@ class StepChunks {
   model::DisjointSets cells_{0};
   std::vector<int> chunk_of_cell_;  ///< [cells]
   int num_chunks_ = 0;
-  std::vector<Manifold> added_, manifolds_;                ///< as added, and chunk by chunk
+  std::span<const Batch> all_batches_;
+  std::vector<Manifold> added_;
+  // Of several chunks:
   std::vector<Batch> batches_;                             ///< chunk by chunk
+  std::vector<Manifold> manifolds_;                        ///< chunk by chunk
   std::vector<std::size_t> first_batch_, first_manifold_;  ///< [chunks + 1]
   std::vector<std::size_t> next_;                          ///< scratch
 };

@@ -49,7 +49,7 @@ class StepLanes {
   void find_chunks(Contacts contacts);
   void touch_trees(const Manifold& manifold);
   void begin_chunk(const Chunk& chunk);
-  void take(int chunk, core::LapTimer& timer);
+  void take(const Chunk& chunk, core::LapTimer& timer);
   void damp(const Batch& batch) {
     if (passes_.damping) motion_.damp(batch, parameters_.substep_s());
   }
@@ -96,7 +96,7 @@ class StepLanes {
     if (passes.idle_friction) return ContactKind::rough;
     return passes.turning_contacts ? ContactKind::smooth : ContactKind::central;
   }
-  void measure_residuals(int chunk);
+  stepping::Residuals measure_residuals(int world) const;
 
   PackLaws pack_laws_;
   const Passes& passes_;
@@ -115,7 +115,7 @@ class StepLanes {
 
 template <class T>
 void StepLanes<T>::find_chunks(Contacts contacts) {
-  chunks_.start(worlds_.places);
+  chunks_.start(worlds_.places, parameters_.newton || parameters_.residuals);
   if (trees_) trees_->start_step();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
     model::SolvedContacts solved = contacts[static_cast<std::size_t>(world)];
@@ -363,7 +363,6 @@ void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters) {
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
   find_chunks(contacts);
-  residuals_.assign(static_cast<std::size_t>(worlds_.num_worlds()), {});
 }
 
 /// Everything before the sweeps of the first substep.
@@ -395,14 +394,14 @@ template <class T>
 void StepLanes<T>::run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
   core::LapTimer timer(times);
   begin(contacts, parameters);
-  for (int chunk = 0; chunk < chunks_.size(); ++chunk) take(chunk, timer);
+  for (int chunk = 0; chunk < chunks_.size(); ++chunk) take(chunks_[chunk], timer);
   if (passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
 }
 
 template <class T>
-void StepLanes<T>::take(int chunk, core::LapTimer& timer) {
-  begin_chunk(chunks_[chunk]);
+void StepLanes<T>::take(const Chunk& chunk, core::LapTimer& timer) {
+  begin_chunk(chunk);
   timer.lap(core::Phase::rows);
   while (substep_ + 1 < parameters_.substeps) {
     end_sweeps();
@@ -413,7 +412,10 @@ void StepLanes<T>::take(int chunk, core::LapTimer& timer) {
     timer.lap(core::Phase::rows);
   }
   end_sweeps();
-  if (parameters_.residuals) measure_residuals(chunk);
+  if (parameters_.residuals) {
+    residuals_.clear();
+    for (int world = 0; world < worlds_.num_worlds(); ++world) residuals_.push_back(measure_residuals(world));
+  }
   if (!relaxes()) remember();
   timer.lap(core::Phase::solve);
   end_substep<true>();
@@ -421,20 +423,16 @@ void StepLanes<T>::take(int chunk, core::LapTimer& timer) {
 }
 
 template <class T>
-void StepLanes<T>::measure_residuals(int chunk) {
-  for (int world = 0; world < worlds_.num_worlds(); ++world) {
-    ResidualMeter<T> meter(laws_.h(), pack_laws_.cfm, laws_.contacts());
-    worlds_.visit_joint_rows(world, [&](const auto& rows, int lane) {
-      if (chunks_.chunk_at(rows.slot_a) == chunk) meter.add_joint(rows, worlds_.bodies, lane);
+stepping::Residuals StepLanes<T>::measure_residuals(int world) const {
+  ResidualMeter<T> meter(laws_.h(), pack_laws_.cfm, laws_.contacts());
+  worlds_.visit_joint_rows(world,
+                           [&](const auto& rows, int lane) { meter.add_joint(rows, worlds_.bodies, lane); });
+  contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {
+    meter.add_contacts(slot, points, worlds_.bodies.contact_twists, [&](int lane, int point) {
+      return point < manifolds[lane].num_points && worlds_.places.world_at(manifolds[lane].a) == world;
     });
-    contacts_.visit_slots([&](const auto& slot, const auto* points, const Manifold* manifolds) {
-      meter.add_contacts(slot, points, worlds_.bodies.contact_twists, [&](int lane, int point) {
-        return point < manifolds[lane].num_points && worlds_.places.world_at(manifolds[lane].a) == world;
-      });
-    });
-    stepping::Residuals& all = residuals_[static_cast<std::size_t>(world)];
-    all = stepping::larger(all, meter.result());
-  }
+  });
+  return meter.result();
 }
 
 }  // namespace pbmpi::solver

@@ -11,6 +11,13 @@ namespace {
 /// its speed back: it would have to be put back again and again.
 constexpr int trial_relax = 6;
 
+/// The larger of each residual.
+stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals& b) {
+  return {std::max(a.joint_speed, b.joint_speed), std::max(a.joint_turn, b.joint_turn),
+          std::max(a.complementarity_j, b.complementarity_j), std::max(a.natural_speed, b.natural_speed),
+          std::max(a.natural_turn, b.natural_turn)};
+}
+
 }  // namespace
 
 bool PartedStep::Part::operator<(const Part& other) const {
@@ -173,7 +180,7 @@ void PartedStep::note(const Pack& pack, int world, int part) {
     if (model.joints[joint].breakable())
       seen.reactions[joint] = pack.reaction(world, static_cast<int>(joint));
   }
-  if (parameters_.residuals) seen.residuals = stepping::larger(seen.residuals, pack.residuals(world));
+  if (parameters_.residuals) seen.residuals = join(seen.residuals, pack.residuals(world));
 }
 
 int PartedStep::joint_rows(const Pack& pack, int world, int joint) const {
@@ -192,7 +199,7 @@ effects::Reaction PartedStep::reaction(const Pack& pack, int world, int joint) c
 stepping::Residuals PartedStep::residuals(const Pack& pack, int world) const {
   if (!cut_) return pack.residuals(world);
   const stepping::Residuals& noted = seen_[static_cast<std::size_t>(world)].residuals;
-  return has_last_ ? stepping::larger(noted, pack.residuals(world)) : noted;
+  return has_last_ ? join(noted, pack.residuals(world)) : noted;
 }
 
 int PartedStep::sweeps(int world, int body) const {
