@@ -5,7 +5,7 @@ import sys
 import h5py
 import numpy as np
 
-from tables import diagrams, programs
+from tables import diagrams, programs, stability
 
 ONLY_SETTINGS = ("--own-iterations", "0", "--rest-seconds", "0")
 DEFAULT = ("sor", 1, 14, 1)
@@ -101,15 +101,11 @@ def front():
 
 def held():
     """How the settings of about the default's time fare on the hard cases."""
-    with programs.Folder() as folder:
-        path = folder / "stability.h5"
-        programs.run([programs.BIN / "pbstudy", "stability", "--setting", *HELD, "--poses", "0", "--progress", "never", "--quiet", "-o", path])
-        with h5py.File(path) as file:
-            verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
+    with programs.Folder() as folder, h5py.File(stability.study(folder, "--setting", *HELD)) as file:
+        verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
     of_setting = [verdicts[settings == name] for name in dict.fromkeys(settings)]
-    counts = [[np.count_nonzero(verdicts == verdict) for verdict in ("pass", "degraded", "broken")] for verdicts in of_setting]
-    return programs.table(["hard cases", "pass", "degraded", "broken"],
-                          [[setting_name(line), *count] for line, count in zip(HELD.values(), counts)])
+    counts = [[np.count_nonzero(verdicts == verdict) for verdict in stability.VERDICTS] for verdicts in of_setting]
+    return programs.table(["hard cases", *stability.VERDICTS], [[setting_name(line), *count] for line, count in zip(HELD.values(), counts)])
 
 
 def of_scene(scene, found, unit_s, uncertainty_m):

@@ -20,7 +20,7 @@ namespace pbmpi::io {
 /// system without locks the existence of the lock file is the lock; a lock file left by a dead process of
 /// this host is then ignored, and one left by another host must be removed by hand.
 ///
-/// A lock on the data would keep readers out, and on a network file system MPI-IO as well.
+/// A lock on the data would keep readers out, and the other ranks that write it.
 class OutputLock {
  public:
   OutputLock() = default;

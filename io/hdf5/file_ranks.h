@@ -12,7 +12,7 @@
 
 namespace pbmpi::io {
 
-/// This rank's place in the group, and the communicator with which the file is opened.
+/// This rank's place in the group, and the group's communicator.
 struct FileGroup {
   int fortran_communicator = 0;  ///< MPI_Comm_c2f of the ranks that write together
   int rank = 0;

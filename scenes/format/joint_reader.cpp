@@ -110,20 +110,10 @@ void read_copies(TableReader& table, JointSpec& spec) {
   spec.spacing = table.vector("spacing", Sign::any);
 }
 
-/// Offers "world" among the names that may be meant.
-[[noreturn]] void refuse_body(const JointSpec& spec, const GrowingModel& model, const std::string& name) {
-  std::vector<std::string> names = {std::string(world_name)};
-  names.reserve(model.bodies.size() + 1);
-  for (const model::Body& body : model.bodies) names.push_back(body.name);
-  throw core::InputError(spec.bodies_where + ": joint " + core::in_quotes(spec.joint.name) +
-                         ": unknown body " + core::in_quotes(name) + core::suggestion(name, names));
-}
-
 int resolve(const JointSpec& spec, GrowingModel& model, const std::string& name) {
   if (name == world_name) return model::no_body;
-  const bool may_mean_world = !core::nearest_name(name, {std::string(world_name)}).empty();
-  if (may_mean_world && !model.find_body(name)) refuse_body(spec, model, name);
-  return model.named_body(name, spec.bodies_where + ": joint " + core::in_quotes(spec.joint.name));
+  return model.named_body(name, spec.bodies_where + ": joint " + core::in_quotes(spec.joint.name),
+                          world_name);
 }
 
 /// "link.7" for copy 4 of "link.3"; a name that does not end in a number is the same for every copy.

@@ -11,10 +11,13 @@ namespace {
 
 template <class Item>
 int need(std::optional<int> found, const std::vector<Item>& items, const std::string& name,
-         const std::string& where, const char* what) {
+         const std::string& where, const char* what, std::string_view also = {}) {
   if (found) return *found;
+  std::vector<std::string> names = names_of(items);
+  if (!also.empty() && !core::nearest_name(name, {std::string(also)}).empty())
+    names.emplace(names.begin(), also);
   throw core::InputError(where + ": unknown " + what + " " + core::in_quotes(name) +
-                         core::suggestion(name, names_of(items)));
+                         core::suggestion(name, names));
 }
 
 bool is_number(std::string_view text) {
@@ -23,8 +26,8 @@ bool is_number(std::string_view text) {
 
 }  // namespace
 
-int GrowingModel::named_body(const std::string& name, const std::string& where) {
-  return need(find_body(name), bodies, name, where, "body");
+int GrowingModel::named_body(const std::string& name, const std::string& where, std::string_view also) {
+  return need(find_body(name), bodies, name, where, "body", also);
 }
 
 int GrowingModel::named_joint(const std::string& name, const std::string& where) {

@@ -20,7 +20,8 @@ class GrowingModel : public model::Model {
   std::optional<int> find_body(std::string_view name) { return body_names_.find(bodies, name); }
   /// Index of the body, joint or actor of that name. `where`: "file:line:column: what", the beginning of the
   /// message of the core::InputError if there is none.
-  int named_body(const std::string& name, const std::string& where);
+  /// `also`: a word that may stand for none, offered where it is probably meant.
+  int named_body(const std::string& name, const std::string& where, std::string_view also = {});
   int named_joint(const std::string& name, const std::string& where);
   int named_actor(const std::string& name, const std::string& where);
   /// named_actor() and its copies "name.1", "name.2", ..., of which there must be one.

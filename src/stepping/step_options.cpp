@@ -153,6 +153,10 @@ bool fits(const StepOption& option, StepperKind kind) {
   return option.needs == nullptr || traits_of(kind).*option.needs;
 }
 
+bool acts(const StepOption& option, StepperKind kind) {
+  return fits(option, kind) && (option.name != "iterations" || traits_of(kind).iterates);
+}
+
 StepValue value_of(const StepOption& option, const StepperSettings& settings) {
   return std::visit(
       [&](auto member) -> StepValue {

@@ -54,6 +54,9 @@ inline std::string file_name(const StepOption& option) { return file_name(option
 
 /// Does this kind of stepper use the option?
 bool fits(const StepOption& option, StepperKind kind);
+/// Does it change what this kind of stepper does? The iterations of one that solves exactly are taken, as
+/// older checkpoints have them, and change nothing.
+bool acts(const StepOption& option, StepperKind kind);
 
 /// The value as text, without a unit.
 std::string text_of(const StepOption& option, const StepperSettings& settings);

@@ -6,18 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "core/random.h"
+#include "geometry/random_points.h"
 
 namespace pbmpi::geometry {
 namespace {
-
-double number(int i, std::uint64_t k) {
-  return core::to_unit(core::mix_key(7, static_cast<std::uint64_t>(i), k));
-}
-
-core::Vec3 point(int i, std::uint64_t k, double side) {
-  return {side * number(i, k), side * number(i, k + 1), side * number(i, k + 2)};
-}
 
 /// Boxes of sizes from 0.05 to 5 m in a cube.
 std::vector<Box> boxes_in_cube(int count, double side) {

@@ -7,18 +7,10 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/random.h"
+#include "geometry/random_points.h"
 
 namespace pbmpi::geometry {
 namespace {
-
-double number(int i, std::uint64_t k) {
-  return core::to_unit(core::mix_key(7, static_cast<std::uint64_t>(i), k));
-}
-
-core::Vec3 point(int i, std::uint64_t k, double side) {
-  return {side * number(i, k), side * number(i, k + 1), side * number(i, k + 2)};
-}
 
 /// Ascending.
 std::vector<int> near(SweptBalls& balls, const Box& box, int but_family = -1) {

@@ -53,9 +53,7 @@ std::string estimate_text(const StepperSettings& estimate) {
   std::string text(name_of(estimate.kind));
   for (const std::string_view name : {"iterations", "precision"}) {
     const stepping::StepOption& option = stepping::step_option(name);
-    const bool is_idle = name == "iterations" && !traits_of(estimate.kind).iterates;
-    if (fits(option, estimate.kind) && !is_idle)
-      text += " " + std::string(name) + "=" + text_of(option, estimate);
+    if (acts(option, estimate.kind)) text += " " + std::string(name) + "=" + text_of(option, estimate);
   }
   return text;
 }

@@ -56,9 +56,8 @@ void set_by_name(const std::string& name, const std::string& value, const std::s
   const auto option = std::ranges::find(stepping::step_options(), name, &stepping::StepOption::name);
   core::require_input(option != stepping::step_options().end(),
                       where + ": " + name + ": there is no such option of a step (pbmpi --help all)");
-  const bool is_idle = name == "iterations" && !traits_of(settings.kind).iterates;
   core::require_input(
-      fits(*option, settings.kind) && !is_idle,
+      acts(*option, settings.kind),
       where + ": " + name + ": the stepper " + std::string(name_of(settings.kind)) + " has no such option");
   set(*option, value, where + ": " + name, settings);
 }

@@ -77,24 +77,21 @@ void require_possible(const AccuracyOptions& options) {
 }  // namespace
 
 Manual accuracy_manual() {
-  return {
-      .name = "pbstudy accuracy",
-      .about =
-          "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
-          "its scene's replicas) and a setting. Its defect is the error after one frame from a state of "
-          "nature, anew in every measured frame: the distance from where ever shorter steps lead, of the "
-          "bodies for which two independent ways agree on that. Its drift is the error along the "
-          "trajectory from the start. Its own defect is the distance from its own equations, solved by "
-          "many iterations of its own stepper.",
-      .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
-      .options = options_description(),
-      .basic = {"scene", "stepper", "iterations", "substeps", "precision", "dt", "estimates", "replicas",
-                "frames", "repeats", "floor-seeds", "output", "max-time", "resume"},
-      .notes =
-          {"A rank works on one case at a time, and takes the next when it is done. More ranks than cores "
-           "spoil the times."},
-      .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa",
-                   "pbreport accuracy.h5 --budget 3.33ms --html accuracy.html"}};
+  return {.name = "pbstudy accuracy",
+          .about =
+              "pbstudy accuracy measures what accuracy costs in time. Each case is a world of its own (with "
+              "its scene's replicas) and a setting. Its defect is the error after one frame from a state of "
+              "nature, anew in every measured frame: the distance from where ever shorter steps lead, of the "
+              "bodies for which two independent ways agree on that. Its drift is the error along the "
+              "trajectory from the start. Its own defect is the distance from its own equations, solved by "
+              "many iterations of its own stepper.",
+          .usage = "mpirun -n RANKS pbstudy accuracy [--scene NAME...] [options]",
+          .options = options_description(),
+          .basic = {"scene", "stepper", "iterations", "substeps", "precision", "dt", "estimates", "replicas",
+                    "frames", "repeats", "floor-seeds", "output", "max-time", "resume"},
+          .notes = {std::string(one_case_a_rank) + spoils_times},
+          .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa",
+                       "pbreport accuracy.h5 --budget 3.33ms --html accuracy.html"}};
 }
 
 AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args) {

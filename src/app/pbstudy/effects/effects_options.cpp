@@ -64,11 +64,10 @@ Manual effects_manual() {
       .options = options_description(),
       .basic = {"scene", "effect", "stepper", "precision", "replicas", "frames", "repeats", "floor-seeds",
                 "output", "max-time", "resume"},
-      .notes =
-          {"A rank works on one case at a time, and takes the next when it is done. More ranks than cores "
-           "spoil the times. Instructions are counted by the processor's counter where Linux gives it "
-           "(perf_event_open), or under callgrind (jobs/effects.sh --instructions); else they are not "
-           "in the file."},
+      .notes = {std::string(one_case_a_rank) + spoils_times +
+                " Instructions are counted by the processor's counter where Linux gives it "
+                "(perf_event_open), or under callgrind (jobs/effects.sh --instructions); else they are not "
+                "in the file."},
       .examples = {"mpirun -n 2 pbstudy effects --scene CrashWa", "pbreport effects.h5 --html effects.html"}};
 }
 

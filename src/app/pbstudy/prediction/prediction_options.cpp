@@ -54,7 +54,7 @@ Manual prediction_manual() {
       .options = options_description(),
       .basic = {"scene", "threshold", "full", "replicas", "frames", "budget", "time-limit", "output",
                 "max-time", "resume"},
-      .notes = {"A rank works on one case at a time, and takes the next when it is done."},
+      .notes = {one_case_a_rank},
       .examples = {"mpirun -n 2 pbstudy prediction --scene CrashSk",
                    "jobs/paper/paper.py prediction prediction.h5 --html prediction.html"}};
 }

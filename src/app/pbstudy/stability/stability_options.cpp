@@ -78,7 +78,7 @@ Manual stability_manual() {
           .usage = "mpirun -n RANKS pbstudy stability [--scene NAME...] [--setting TEXT...] [options]",
           .options = options_description(),
           .basic = {"scene", "setting", "dt", "most-work", "seed", "output", "max-time", "resume"},
-          .notes = {"A rank works on one case at a time, and takes the next when it is done."},
+          .notes = {one_case_a_rank},
           .examples = {"mpirun -n 2 pbstudy stability --setting sor quick",
                        "pbreport stability.h5 --html stability.html"}};
 }

@@ -15,6 +15,11 @@
 
 namespace pbmpi::app {
 
+/// For the manuals.
+inline constexpr const char* one_case_a_rank =
+    "A rank works on one case at a time, and takes the next when it is done.";
+inline constexpr const char* spoils_times = " More ranks than cores spoil the times.";
+
 struct StudyOptions {
   bool help = false;
   std::vector<std::string> scenes;
