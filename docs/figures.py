@@ -32,6 +32,8 @@ ENTRIES = {
     "front": Entry("docs/accuracy.md", accuracy.front, True,
                    ["pbstudy accuracy --stepper quick sor --law soft --precision double --iterations 5 20 80 --repeats 3"]),
     "held": Entry("docs/accuracy.md", accuracy.held, False, ["pbstudy stability --setting SETTING..."]),
+    "fine": Entry("docs/accuracy.md", accuracy.fine, True,
+                  [f"pbstudy accuracy --stepper sor --law soft --precision double --substeps 14 --dt 0.01 --approach 0 {accuracy.FINE}"]),
     "estimates": Entry("docs/accuracy.md", accuracy.estimates, False,
                        ["pbstudy accuracy --scene CrashSk CrashWa Fight --precision double --iterations 20 --substeps 1 14 --dt 0.01"]),
     "substeps": Entry("docs/accuracy.md", accuracy.substeps, False, ["bench_worlds --substeps 100CrSk 0 8",

@@ -13,7 +13,8 @@ DRAWN = ("CrashSk", "CrashWa", "Fight")
 # Step of the scene over the step, substeps x iterations.
 LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 5, 1),
          ("sor", 2, 7, 1), ("sor", 4, 3, 1), ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
-HELD = {"sor": ("sor", 1, 14, 1), **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1)
+FINE = "10cm"
+HELD = {"sor": ("sor", 1, 14, 1), f"sor approach={FINE}": ("sor", 1, 14, 1), **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1)
                                      for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
 
 
@@ -105,7 +106,27 @@ def held():
         verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
     of_setting = [verdicts[settings == name] for name in dict.fromkeys(settings)]
     counts = [[np.count_nonzero(verdicts == verdict) for verdict in stability.VERDICTS] for verdicts in of_setting]
-    return programs.table(["hard cases", *stability.VERDICTS], [[setting_name(line), *count] for line, count in zip(HELD.values(), counts)])
+    return programs.table(["hard cases", *stability.VERDICTS], [[setting_name(line) + (f", `--approach {FINE}`" if "approach" in setting else ""), *count]
+                           for (setting, line), count in zip(HELD.items(), counts)])
+
+
+def fine():
+    """What it buys and costs where islands in which bodies approach each other far take the step in pieces."""
+    with programs.Folder() as folder:
+        cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "sor", "--law", "soft", "--precision", "double", "--substeps", "14",
+                                           "--dt", "0.01", "--approach", "0", FINE, "--estimates", "0", "--repeats", "3", *ONLY_SETTINGS)
+    found = {(case["scene"], case["approach"] > 0): case for case in cases if case["kind"] == "setting"}
+
+    def errors(scene, is_fine):
+        return ", ".join(programs.millimetres(found[scene, is_fine][f"defect_body_position_{which}"]) for which in ("rms", "p90", "median"))
+
+    def times(scene):
+        return f"{found[scene, True]['frame_time_median'] / found[scene, False]['frame_time_median']:.2f}"
+
+    return programs.table(["rms, 90th percentile, median [mm]", *programs.SCENES],
+                          [["default", *(errors(scene, False) for scene in programs.SCENES)],
+                           [f"`--approach {FINE}`", *(errors(scene, True) for scene in programs.SCENES)],
+                           ["its time over the default's", *(times(scene) for scene in programs.SCENES)]])
 
 
 def of_scene(scene, found, unit_s, uncertainty_m):

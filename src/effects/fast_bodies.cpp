@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "effects/approach.h"
 #include "geometry/geometry.h"
 #include "geometry/ray_cast.h"
 
@@ -43,9 +46,26 @@ int family_of(const model::Model& model, const model::Geom& geom) {
 
 bool by_geoms(const model::Contact& a, const model::Contact& b) { return a.geoms < b.geoms; }
 
+/// Keeps of each pair of bodies the farthest approach.
+void keep_farthest(std::vector<model::Contact>& approaches) {
+  const auto bodies = [](const model::Contact& contact) { return std::pair(contact.body_a, contact.body_b); };
+  std::sort(approaches.begin(), approaches.end(), [&](const model::Contact& a, const model::Contact& b) {
+    return std::tuple(bodies(a), -a.approach, a.geoms) < std::tuple(bodies(b), -b.approach, b.geoms);
+  });
+  const auto end =
+      std::unique(approaches.begin(), approaches.end(),
+                  [&](const model::Contact& a, const model::Contact& b) { return bodies(a) == bodies(b); });
+  approaches.erase(end, approaches.end());
+}
+
+void keep_once(std::vector<int>& bodies) {
+  std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
+}
+
 }  // namespace
 
-std::vector<SlowBound> slow_bounds(const model::Model& model) {
+std::vector<SlowBound> slow_bounds(const model::Model& model, double most_approach_m) {
   // A geom's centre may move half by the body's displacement and half by its rotation; 0.49 instead of 0.5
   // leaves room for rounding.
   constexpr double share = 0.49;
@@ -53,18 +73,20 @@ std::vector<SlowBound> slow_bounds(const model::Model& model) {
   for (const model::Geom& geom : model.geoms) {
     if (geom.body == model::no_body) continue;
     SlowBound& bound = bounds[static_cast<std::size_t>(geom.body)];
-    const double way = share * geometry::least_half_extent(geom), arm = geom.local.position.norm();
+    const double way = share * std::min(geometry::least_half_extent(geom), most_approach_m);
+    const double arm = geom.local.position.norm();
     bound.way_m = std::min(bound.way_m, way);
     if (arm > 0) bound.turn_rad = std::min(bound.turn_rad, way / arm);
   }
   return bounds;
 }
 
-FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies)
+FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies, double most_approach_m)
     : model_(&model),
       rule_(model),
       seams_(geometry::Seams::find(model)),
-      fast_of_geom_(model.geoms.size(), -1),
+      most_approach_m_(most_approach_m),
+      moving_of_geom_(model.geoms.size(), -1),
       met_poses_(model.geoms.size()) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const model::Geom& geom = model.geoms[i];
@@ -85,38 +107,42 @@ FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodie
 /// The first test saves the two square roots a geom: the displacement and the rotation each account for less
 /// than half of what makes a geom fast. A non-finite speed counts as slow.
 bool FastBodies::is_slow(const Watched& watched, const core::Vec3& velocity, const core::Vec3& spin,
-                         double dt_s) {
-  const double half_s = 0.499 * watched.least_half / dt_s;
+                         double dt_s, double most_m) {
+  const double half_s = 0.499 * most_m / dt_s;
   const bool clearly = velocity.squaredNorm() < half_s * half_s &&
                        spin.squaredNorm() * watched.arm * watched.arm < half_s * half_s;
   if (clearly) return true;
   const double most = velocity.norm() + (watched.arm > 0 ? spin.norm() * watched.arm : 0);
-  return !(most * dt_s > watched.least_half);
+  return !(most * dt_s > most_m);
 }
 
-bool FastBodies::look(const model::State& state, double dt_s) {
-  for (const Fast& fast : fast_) fast_of_geom_[fast.geom] = -1;
-  fast_.clear();
+bool FastBodies::look(const model::State& state, double dt_s, int pieces) {
+  for (const Moving& moving : moving_) moving_of_geom_[moving.geom] = -1;
+  moving_.clear();
   bodies_.clear();
+  moving_bodies_.clear();
   for (const Watched& watched : watched_) {
     const core::Vec3& velocity = state.velocity[watched.body];
     const core::Vec3& spin = state.angular_velocity[watched.body];
-    if (is_slow(watched, velocity, spin, dt_s)) continue;
+    const double most_slow = std::min(watched.least_half / pieces, most_approach_m_);
+    if (is_slow(watched, velocity, spin, dt_s, most_slow)) continue;
     const model::Geom& geom = model_->geoms[watched.geom];
     const model::BodyPose at = pose_of(state, geom);
     const core::Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
     const double length = way.norm();
-    if (!std::isfinite(length) || !(length > watched.least_half)) continue;
+    if (!std::isfinite(length) || !(length > most_slow)) continue;
     const double half = geometry::half_extent(geom, at.rotation, way / length);
-    if (!(length > half)) continue;
-    fast_of_geom_[watched.geom] = static_cast<int>(fast_.size());
+    const bool is_fast = length * pieces > half, may_approach = length > most_approach_m_;
+    if (!is_fast && !may_approach) continue;
+    moving_of_geom_[watched.geom] = static_cast<int>(moving_.size());
     const core::Vec3 reach = way + half / length * way;
-    fast_.push_back({watched.geom, watched.family, watched.radius, at, way, reach});
-    bodies_.push_back(watched.body);
+    moving_.push_back({watched.geom, watched.family, watched.radius, at, way, reach, is_fast, may_approach});
+    if (is_fast) bodies_.push_back(watched.body);
+    moving_bodies_.push_back(watched.body);
   }
-  std::sort(bodies_.begin(), bodies_.end());
-  bodies_.erase(std::unique(bodies_.begin(), bodies_.end()), bodies_.end());
-  return !fast_.empty();
+  keep_once(bodies_);
+  keep_once(moving_bodies_);
+  return !moving_.empty();
 }
 
 bool FastBodies::is_near(const model::State& state, const core::Vec3& middle, double half_way,
@@ -151,7 +177,7 @@ bool FastBodies::is_covered(const model::State& state, int geom, const core::Vec
 /// geom's centre: the lever arm of an oblique hit would turn a body instead of stopping it, so the arm is
 /// divided by how easily the two bodies turn, with less for the one that turns more easily. Between the two
 /// surfaces it lies half way; where they overlap, which no depth says, nearer to that of this body.
-void FastBodies::meet(const model::State& state, const Fast& fast, const core::Vec3& way, int other) {
+void FastBodies::meet(const model::State& state, const Moving& fast, const core::Vec3& way, int other) {
   const core::Vec3 centre(fast.pose.position);
   const model::Geom& geom = model_->geoms[fast.geom];
   const auto entry = geometry::enter(model_->geoms[other], met_pose(state, other), centre, way);
@@ -160,14 +186,10 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   if (is_covered(state, other, hit, entry->normal)) return;
   const double height = entry->normal.dot(centre - hit);
   const int other_body = model_->geoms[other].body;
+  model::Contact contact;
+  const bool fast_is_a = put_geoms(fast.geom, other, contact);
   const double own_ease = ease_of_turning_[geom.body];
   const double other_ease = other_body == model::no_body ? 0 : ease_of_turning_[other_body];
-  model::Contact contact;
-  contact.geoms = {std::min(fast.geom, other), std::max(fast.geom, other)};
-  const int first_body = model_->geoms[contact.geoms.first].body;
-  const bool fast_is_a = other_body == model::no_body || first_body == geom.body;
-  contact.body_a = fast_is_a ? geom.body : other_body;
-  contact.body_b = fast_is_a ? other_body : geom.body;
   contact.normal = fast_is_a ? entry->normal : core::Vec3(-entry->normal);
   const double own_share = own_ease / (own_ease + other_ease);
   const double overlap = geometry::half_extent(geom, fast.pose.rotation, entry->normal) - height;
@@ -182,10 +204,57 @@ void FastBodies::meet(const model::State& state, const Fast& fast, const core::V
   found_.push_back(contact);
 }
 
+bool FastBodies::put_geoms(int geom, int other, model::Contact& contact) const {
+  const int body = model_->geoms[geom].body, other_body = model_->geoms[other].body;
+  contact.geoms = {std::min(geom, other), std::max(geom, other)};
+  const bool is_a = other_body == model::no_body || geom == contact.geoms.first;
+  contact.body_a = is_a ? body : other_body;
+  contact.body_b = is_a ? other_body : body;
+  return is_a;
+}
+
+void FastBodies::approach(const model::State& state, const Moving& from, int other) {
+  const Moving* too = moving(other);
+  const bool other_moves = too != nullptr && too->may_approach;
+  const model::Geom &geom = model_->geoms[from.geom], &met = model_->geoms[other];
+  const bool is_static = met.body == model::no_body;
+  const core::Vec3 way = other_moves ? core::Vec3(from.way - too->way) : from.way;
+  const double room = other_moves || is_static ? 0 : most_approach_m_;
+  const double by = is_static
+                        ? approach_to_static(core::Vec3(from.pose.position), way, met, met_pose(state, other))
+                        : way.norm();
+  if (!(by > most_approach_m_) || !rule_.may_touch(from.geom, other)) return;
+  if (!may_meet(geom, from.pose, way, met, met_pose(state, other), room)) return;
+  model::Contact contact;
+  put_geoms(from.geom, other, contact);
+  contact.approach = by;
+  contact.depth = -model::infinity;
+  contact.position = core::Vec3(from.pose.position);
+  contact.normal = core::Vec3::UnitZ();
+  approaches_.push_back(contact);
+}
+
+template <class Accepts>
+void FastBodies::look_from(const model::State& state, const Moving& from, const BallSet& set,
+                           const Accepts& accepts) {
+  if (from.is_fast) find_meetings(state, from, set, accepts);
+  if (from.may_approach) find_approaches(state, from, set, accepts);
+}
+
+template <class Accepts>
+void FastBodies::find_approaches(const model::State& state, const Moving& from, const BallSet& set,
+                                 const Accepts& accepts) {
+  const geometry::Box near = geometry::swept_box(core::Vec3(from.pose.position), from.radius, from.way);
+  set.swept.for_each_near(near.grown(most_approach_m_), from.family, [&](int index) {
+    const int other = balls_[set.balls[index]].geom;
+    if (accepts(other)) approach(state, from, other);
+  });
+}
+
 /// Meets the geoms near the path for which accepts(geom) is true.
 template <class Accepts>
-void FastBodies::look_from(const model::State& state, const Fast& fast, const BallSet& set,
-                           const Accepts& accepts) {
+void FastBodies::find_meetings(const model::State& state, const Moving& fast, const BallSet& set,
+                               const Accepts& accepts) {
   const core::Vec3 centre(fast.pose.position);
   const model::Geom& geom = model_->geoms[fast.geom];
   const core::Vec3 middle = centre + 0.5 * fast.reach;
@@ -194,8 +263,8 @@ void FastBodies::look_from(const model::State& state, const Fast& fast, const Ba
     const Ball& ball = balls_[set.balls[index]];
     const int other = ball.geom;
     if (!accepts(other)) return;
-    if (const int too = fast_of_geom_[other]; too >= 0) {
-      const core::Vec3 way = with_front(geom, fast.pose, fast.way - fast_[too].way);
+    if (const Moving* too = moving(other); too != nullptr && too->is_fast) {
+      const core::Vec3 way = with_front(geom, fast.pose, fast.way - too->way);
       if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), ball)) meet(state, fast, way, other);
     } else if (is_near(state, middle, half, ball)) {
       meet(state, fast, fast.reach, other);
@@ -218,29 +287,29 @@ void FastBodies::clear_sets(std::size_t count) {
 void FastBodies::put_ball(const model::State& state, int index, BallSet& set) const {
   const Ball& ball = balls_[index];
   const core::Vec3& centre = ball.body == model::no_body ? ball.centre : state.position[ball.body];
-  const int fast = fast_of_geom_[ball.geom];
-  set.swept.add(centre, ball.radius, fast >= 0 ? fast_[fast].way : core::Vec3(core::Vec3::Zero()),
+  const Moving* moves = moving(ball.geom);
+  set.swept.add(centre, ball.radius, moves != nullptr ? moves->way : core::Vec3(core::Vec3::Zero()),
                 ball.family);
   set.balls.push_back(index);
 }
 
 void FastBodies::add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts) {
-  if (fast_.empty()) return;
+  if (moving_.empty()) return;
   clear_sets(1);
   for (int i = 0; i < static_cast<int>(balls_.size()); ++i) put_ball(state, i, sets_.front());
   sets_.front().swept.finish();
-  for (const Fast& fast : fast_)
-    look_from(state, fast, sets_.front(), [&](int other) { return filter(fast.geom, other); });
+  for (const Moving& moving : moving_)
+    look_from(state, moving, sets_.front(), [&](int other) { return filter(moving.geom, other); });
   join_found(contacts);
 }
 
 void FastBodies::add_across(const model::State& state, std::span<const int> group_of_body,
                             std::vector<model::Contact>& contacts) {
-  if (fast_.empty()) return;
-  const auto group_of = [&](const Fast& fast) { return group_of_body[model_->geoms[fast.geom].body]; };
-  const int first = group_of(fast_.front());
-  const bool all_in_first =
-      std::all_of(fast_.begin(), fast_.end(), [&](const Fast& fast) { return group_of(fast) == first; });
+  if (moving_.empty()) return;
+  const auto group_of = [&](const Moving& moving) { return group_of_body[model_->geoms[moving.geom].body]; };
+  const int first = group_of(moving_.front());
+  const bool all_in_first = std::all_of(moving_.begin(), moving_.end(),
+                                        [&](const Moving& moving) { return group_of(moving) == first; });
   clear_sets(static_cast<std::size_t>(*std::max_element(group_of_body.begin(), group_of_body.end()) + 1));
   for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
     if (balls_[i].body == model::no_body) continue;
@@ -248,22 +317,28 @@ void FastBodies::add_across(const model::State& state, std::span<const int> grou
     if (!all_in_first || group != first) put_ball(state, i, sets_[group]);
   }
   for (BallSet& set : sets_) set.swept.finish();
-  for (const Fast& fast : fast_) {
+  for (const Moving& moving : moving_) {
     for (int group = 0; group < static_cast<int>(sets_.size()); ++group) {
-      if (group != group_of(fast)) look_from(state, fast, sets_[group], [](int) { return true; });
+      if (group != group_of(moving)) look_from(state, moving, sets_[group], [](int) { return true; });
     }
   }
   join_found(contacts);
 }
 
-/// Keeps canonical order, with the speculative contacts of a pair after its touching ones.
+/// Keeps canonical order, with the speculative contacts of a pair after its touching ones, and its approach
+/// last.
 void FastBodies::join_found(std::vector<model::Contact>& contacts) {
   std::stable_sort(found_.begin(), found_.end(), by_geoms);
   const auto end =
       std::unique(found_.begin(), found_.end(),
                   [](const model::Contact& a, const model::Contact& b) { return a.geoms == b.geoms; });
+  found_.erase(end, found_.end());
+  keep_farthest(approaches_);
+  found_.insert(found_.end(), approaches_.begin(), approaches_.end());
+  std::stable_sort(found_.begin(), found_.end(), by_geoms);
+  approaches_.clear();
   const auto num_touching = std::ssize(contacts);
-  contacts.insert(contacts.end(), found_.begin(), end);
+  contacts.insert(contacts.end(), found_.begin(), found_.end());
   std::inplace_merge(contacts.begin(), contacts.begin() + num_touching, contacts.end(), by_geoms);
   found_.clear();
 }

@@ -5,8 +5,12 @@
 namespace pbmpi::effects {
 
 StepRules::StepRules(const model::Model& model, double dt_s, std::optional<int> iterations, World world,
-                     model::State& state)
-    : model_(&model), dt_s_(dt_s), state_(&state), all_bodies_(model.bodies.size()) {
+                     model::State& state, double most_approach_m)
+    : model_(&model),
+      dt_s_(dt_s),
+      most_approach_m_(most_approach_m),
+      state_(&state),
+      all_bodies_(model.bodies.size()) {
   std::iota(all_bodies_.begin(), all_bodies_.end(), 0);
   const StepPlan plan(model);
   for (const Pass& pass : plan.passes()) {
@@ -87,7 +91,7 @@ void StepRules::look_ahead(RuledWorld& world) {
 }
 
 void StepRules::make_fast_bodies() {
-  fast_bodies_.emplace(*model_);
+  fast_bodies_.emplace(*model_, std::span<const char>(), most_approach_m_);
   fast_bodies_->set_broken(state_->broken_in);
 }
 

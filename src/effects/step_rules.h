@@ -60,8 +60,9 @@ class StepRules {
 
   /// All are borrowed; `state` is the world's, whose `rest` and `broken_in` the rules maintain. `iterations`:
   /// the run's; none for an engine without iterations, which has no field of interest either.
+  /// `most_approach_m`: see FastBodies; infinite for an engine without shorter steps.
   StepRules(const model::Model& model, double dt_s, std::optional<int> iterations, World world,
-            model::State& state);
+            model::State& state, double most_approach_m = model::infinity);
   StepRules(const StepRules&) = delete;
   StepRules& operator=(const StepRules&) = delete;
 
@@ -116,6 +117,7 @@ class StepRules {
 
   const model::Model* model_;
   double dt_s_;
+  double most_approach_m_;
   model::State* state_;
   std::vector<int> all_bodies_;
   std::vector<VelocityRule> velocity_rules_;

@@ -35,7 +35,12 @@ struct Contact {
   double depth = 0;  ///< [m]; below 0: a gap that may close in this step (effects/fast_bodies.h)
   double mu = 0;
   double restitution = 0;
+  /// [m] Above 0: an approach, that is no point of contact, but two bodies that come nearer by so much in
+  /// this step and may begin to touch within it (effects/fast_bodies.h). It tells neither place nor depth.
+  double approach = 0;
   GeomPair geoms;  ///< the two that touch; canonical order of contacts is sorted by them
+
+  bool is_approach() const { return approach > 0; }
 };
 
 /// The material of a touching pair without a PairMaterial, by the rule stated at Material.

@@ -78,8 +78,9 @@ class SpaceStepper {
     static_cast<void>(rows);
   }
 
-  /// Own bodies that are fast in the current state (effects/fast_bodies.h), ascending: collide_across() must
-  /// have their whole states, and treats all other bodies as slow. None without the pass.
+  /// Own bodies that are fast or may approach others in the current state (effects/fast_bodies.h), ascending:
+  /// collide_across() must have their whole states, and treats all other bodies as slow. None without the
+  /// pass.
   virtual std::vector<int> fast_bodies() = 0;
 
   /// Fires the events of this step: all settings of joints, and the launches of own bodies.
@@ -100,21 +101,19 @@ class SpaceStepper {
   virtual void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
                               std::vector<model::Contact>& contacts) = 0;
 
-  /// Moves the bodies of these units (ascending) by a step. `contacts`: all contacts of these bodies, in
-  /// canonical order; both bodies of a contact belong to these units. Adds the seconds spent to rows, solve,
-  /// integrate.
+  /// Moves the bodies of these units (ascending) by a step. `contacts`: all contacts and approaches of these
+  /// bodies, in canonical order; both bodies of a contact belong to these units. Adds the seconds spent to
+  /// rows, solve, integrate.
   virtual void solve(std::span<const int> units, std::span<const model::Contact> contacts, std::int64_t step,
                      core::PhaseTimes& times) = 0;
-  /// The contacts, rows and islands of the last solve(), whose arguments are given again. The other
-  /// observables are zero; join() of stepping/observable_table.h makes the world's from those of its ranks.
-  virtual Observables count(std::span<const int> units, std::span<const model::Contact> contacts) const = 0;
+  /// The contacts, rows and islands of the last solve(), whose units are given again. The other observables
+  /// are zero; join() of stepping/observable_table.h makes the world's from those of its ranks.
+  virtual Observables count(std::span<const int> units) const = 0;
   virtual bool shows_contacts() const { return false; }  ///< StepperSettings::contacts
-  /// With shows_contacts(): the contacts and forces of the last solve(), whose contacts are given again. The
-  /// forces of joints outside these units are zero.
-  virtual StepContacts contacts_of(std::span<const int> units,
-                                   std::span<const model::Contact> contacts) const {
+  /// With shows_contacts(): the contacts and forces with which the last solve() ended. The forces of joints
+  /// outside these units, which are those of the solve(), are zero.
+  virtual StepContacts contacts_of(std::span<const int> units) const {
     static_cast<void>(units);
-    static_cast<void>(contacts);
     return {};
   }
 };

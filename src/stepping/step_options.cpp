@@ -18,7 +18,7 @@ using Traits = StepperTraits;
 bool at_least_1(double value) { return value >= 1; }
 bool is_thread_count(double value) { return value >= 1 && value <= 1024; }
 
-constexpr std::array<StepOption, 10> options = {{
+constexpr std::array<StepOption, 11> options = {{
     {.name = "stepper",
      .member = &Settings::kind,
      .placeholder = "sor|quick|direct|bullet|mujoco",
@@ -68,6 +68,16 @@ constexpr std::array<StepOption, 10> options = {{
      .needs = &Traits::has_substeps,
      .measure = &core::tolerance,
      .in_short = "tolerance * m",
+     .unit = "m"},
+    {.name = "approach",
+     .member = &Settings::approach_m,
+     .placeholder = "LENGTH",
+     .meaning =
+         "sor: islands in which bodies come nearer to each other by more than this in a step take it in four "
+         "or eight pieces, with collision detection in each, e.g. 10cm; 0: none does; default: 0",
+     .needs = &Traits::has_substeps,
+     .measure = &core::length_with_unit,
+     .in_short = "approach * m",
      .unit = "m"},
     {.name = "precision",
      .member = &Settings::precision,

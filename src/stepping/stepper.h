@@ -110,7 +110,10 @@ struct StepperSettings {
   int iterations = 1;      ///< sweeps of an iterative solver, in each substep
   int substeps = 14;       ///< sor: parts of a step without new collision detection
   double tolerance_m = 0;  ///< sor: islands that move less get fewer substeps; 0: all get all of them
-  SorLaw law = {};         ///< sor; the others have ode_law()
+  /// sor with a memory: islands in which bodies approach each other by more than this in a step take it in
+  /// pieces with contacts of their own [m]; 0: none does
+  double approach_m = 0;
+  SorLaw law = {};  ///< sor; the others have ode_law()
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;
   int threads = 1;         ///< sor: that step packs of worlds at the same time; moves no bit

@@ -304,6 +304,94 @@ TEST(FastBodies, find_across_groups_what_a_filter_would_let_through) {
   EXPECT_FALSE(found.empty());
 }
 
+std::vector<model::Contact> approaches_of(const model::Model& model, double most_approach_m = 0.05) {
+  FastBodies fast(model, {}, most_approach_m);
+  const model::State state = model::initial_state(model);
+  std::vector<model::Contact> contacts;
+  if (fast.look(state, dt_s)) fast.add(state, all, contacts);
+  std::erase_if(contacts, [](const model::Contact& contact) { return !contact.is_approach(); });
+  return contacts;
+}
+
+// 8 m/s, 8 cm a step; the surfaces are 10 cm apart, or 20.
+TEST(Approaches, are_of_bodies_that_may_begin_to_touch_within_the_step) {
+  model::Model model;
+  add_ball(model, "ball", {-0.25, 0.2, 1}, {8, 0, 0});
+  add_wall(model, 0, 0.1);
+  const auto found = approaches_of(model);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].body_a, 0);
+  EXPECT_EQ(found[0].body_b, 1);
+  EXPECT_NEAR(found[0].approach, 0.08, rounding);
+  EXPECT_TRUE(approaches_of(model, 0.09).empty()) << "it comes nearer by less than that";
+  EXPECT_TRUE(contacts_of(model).empty()) << "it is not fast";
+  model.geoms[0].local.position.x() = -0.1;
+  EXPECT_TRUE(approaches_of(model).empty()) << "the wall is too far off";
+  model.bodies[0].velocity = {-8, 0, 0};
+  model.geoms[0].local.position.x() = 0;
+  EXPECT_TRUE(approaches_of(model, 0.07).empty()) << "what moves away at 8 cm a step leaves all behind";
+}
+
+TEST(Approaches, of_two_that_move_are_by_their_relative_motion) {
+  model::Model model;
+  add_ball(model, "a", {-0.15, 0, 1}, {20, 0, 0});
+  add_ball(model, "b", {0.15, 0, 1}, {19, 0, 0});
+  EXPECT_TRUE(approaches_of(model).empty());
+  model.bodies[1].velocity.x() = -20;
+  const auto found = approaches_of(model);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(found[0].approach, 0.4, rounding);
+}
+
+TEST(Approaches, to_a_floor_are_by_the_speed_towards_it) {
+  for (const bool is_plane : {true, false}) {
+    model::Model model;
+    const int ball = add_ball(model, "ball", {0, 0, 0.1}, {30, 0, -1});
+    if (is_plane) {
+      support::add_ground(model);
+    } else {
+      const int wall = add_wall(model, 0, 10);
+      model.geoms.back().body = model::no_body;
+      model.geoms.back().local.position = {0, 0, -1};
+      model.bodies.resize(static_cast<std::size_t>(wall));
+    }
+    EXPECT_TRUE(approaches_of(model).empty()) << "rolling";
+    model.bodies[static_cast<std::size_t>(ball)].velocity.z() = -12;
+    const auto found = approaches_of(model);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].body_b, model::no_body);
+    EXPECT_NEAR(found[0].approach, 0.12, rounding);
+  }
+}
+
+// One for each pair of bodies, the same in a world cut into groups, of which each knows only what moves far.
+TEST(Approaches, are_the_same_across_groups) {
+  const model::Model model = converging_balls();
+  const model::State state = model::initial_state(model);
+  const auto whole = approaches_of(model);
+  EXPECT_GT(whole.size(), 12u);
+  std::vector<int> group;
+  for (int body = 0; body < model.num_bodies(); ++body) group.push_back(body % 3);
+  std::vector<model::Contact> parts;
+  for (int own = 0; own < 3; ++own) {
+    std::vector<char> is_own;
+    for (const int of : group) is_own.push_back(of == own ? 1 : 0);
+    FastBodies fast(model, is_own, 0.05);
+    fast.look(state, dt_s);
+    fast.add(state, all, parts);
+  }
+  FastBodies across(model, {}, 0.05);
+  across.look(state, dt_s);
+  across.add_across(state, group, parts);
+  std::erase_if(parts, [](const model::Contact& contact) { return !contact.is_approach(); });
+  std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return a.geoms < b.geoms; });
+  ASSERT_EQ(parts.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(parts[i].geoms, whole[i].geoms);
+    EXPECT_EQ(parts[i].approach, whole[i].approach);
+  }
+}
+
 TEST(FastBodies, of_some_bodies_see_these_and_static_geoms_only) {
   const model::Model model = converging_balls();
   const model::State state = model::initial_state(model);

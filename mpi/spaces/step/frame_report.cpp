@@ -51,7 +51,7 @@ void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::
   core::LapTimer timer(times);
   islands_->form(work.contacts);
   Account own;
-  shared_->guard([&] { own.seen = shared_->stepper->count(work.units, work.contacts); });
+  shared_->guard([&] { own.seen = shared_->stepper->count(work.units); });
   const std::vector<double> energy_j = own_energies();
   own.energy_j = energy_j;
   own.seen.joint_gap_m = own_joint_gap();
@@ -62,8 +62,7 @@ void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::
   own.unit_weight = islands_->unit_weight();
   own.unit_near = islands_->unit_near();
   own_contacts_.clear();
-  if (shared_->records)
-    shared_->guard([&] { own_contacts_ = shared_->stepper->contacts_of(work.units, work.contacts); });
+  if (shared_->records) shared_->guard([&] { own_contacts_ = shared_->stepper->contacts_of(work.units); });
   if (shared_->is_root()) return receive(own, timer);
   post(own);
   timer.lap(Phase::gather);

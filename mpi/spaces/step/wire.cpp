@@ -16,6 +16,7 @@ WireContact to_wire(const model::Contact& contact) {
   wire.depth = contact.depth;
   wire.mu = contact.mu;
   wire.restitution = contact.restitution;
+  wire.approach = contact.approach;
   return wire;
 }
 
@@ -29,6 +30,7 @@ model::Contact from_wire(const WireContact& wire) {
   contact.depth = wire.depth;
   contact.mu = wire.mu;
   contact.restitution = wire.restitution;
+  contact.approach = wire.approach;
   return contact;
 }
 

@@ -15,7 +15,7 @@ struct WireContact {
   std::int32_t first = 0, second = 0;  ///< geoms
   std::int32_t body_a = 0, body_b = 0;
   double position[3] = {}, normal[3] = {};
-  double depth = 0, mu = 0, restitution = 0;
+  double depth = 0, mu = 0, restitution = 0, approach = 0;
 };
 
 WireContact to_wire(const model::Contact& contact);

@@ -33,7 +33,9 @@ class ContactRecall {
   }
   /// [contacts], to be replaced by the forces with which the step ends.
   std::span<model::ContactForce> forces() { return forces_; }
-  /// The contacts of recall(), given again, with their forces.
+  /// The step has ended with other contacts, which had these forces.
+  void replace(std::span<const model::ContactForce> forces) { forces_.assign(forces.begin(), forces.end()); }
+  /// The contacts of recall() or replace(), given again, with their forces.
   std::vector<model::LoadedContact> loaded(std::span<const model::Contact> contacts) const;
   std::span<const model::ContactForce> forces() const { return forces_; }
   /// What is to be remembered after the step.

@@ -71,8 +71,8 @@ class Pack {
   virtual void set_broken(int world, std::span<const std::int32_t> broken_in) = 0;
   /// [m] Centre of mass of a body, world frame.
   virtual model::Vec3 centre(int world, int body) const = 0;
-  /// may_be_fast[num_worlds]: 0 if no geom of the world can be fast (effects/fast_bodies.h) in a step of
-  /// `dt_s` from now. All 0 without the pass "fast_bodies".
+  /// may_be_fast[num_worlds]: 0 if no geom of the world can be fast or approach others
+  /// (effects/fast_bodies.h) in a step of `dt_s` from now. All 0 without the pass "fast_bodies".
   virtual void find_fast(double dt_s, std::vector<char>& may_be_fast) const = 0;
   /// may_be_slow[num_worlds]: 0 if the centre of each body of the world would move farther than `way_m` in a
   /// step of `dt_s` at its current velocity.

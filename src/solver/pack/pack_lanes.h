@@ -18,7 +18,7 @@ class PackLanes final : public Pack {
         worlds_(worlds, passes_),
         step_(laws_of(*worlds.front().model), passes_, worlds_) {
     if (passes_.collision) collider_.emplace(worlds, worlds_, passes_.sleeping);
-    if (passes_.fast_bodies) speed_bounds_.emplace(worlds_);
+    if (passes_.fast_bodies) speed_bounds_.emplace(worlds_, worlds);
   }
 
   void load(int world, const model::State& state) override {

@@ -1,8 +1,10 @@
-/// Which worlds of a pack have a body that may be fast (effects/fast_bodies.h) in a step, or slow.
+/// Which worlds of a pack have a body that may be fast or approach others (effects/fast_bodies.h) in a step,
+/// or slow.
 #pragma once
 
 #include <bit>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "effects/fast_bodies.h"
@@ -25,7 +27,7 @@ class SpeedBounds {
   using V = typename T::V;
   using Scalar = typename T::Scalar;
 
-  explicit SpeedBounds(const WorldLanes<T>& worlds);
+  SpeedBounds(const WorldLanes<T>& worlds, std::span<const PackedWorld> packed);
 
   /// Sets may_be_fast[num_worlds], initially 0, where a body exceeds its effects::SlowBound in a step of
   /// `dt_s`.
@@ -45,11 +47,12 @@ class SpeedBounds {
 };
 
 template <class T>
-SpeedBounds<T>::SpeedBounds(const WorldLanes<T>& worlds) {
+SpeedBounds<T>::SpeedBounds(const WorldLanes<T>& worlds, std::span<const PackedWorld> packed) {
   const V none = T::broadcast(static_cast<Scalar>(model::infinity));
   slots_.assign(static_cast<std::size_t>(worlds.places.num_slots()), {none, none});
   for (int world = 0; world < worlds.num_worlds(); ++world) {
-    const std::vector<effects::SlowBound> bounds = effects::slow_bounds(worlds.model(world));
+    const std::vector<effects::SlowBound> bounds =
+        effects::slow_bounds(worlds.model(world), packed[static_cast<std::size_t>(world)].most_approach_m);
     for (std::size_t body = 0; body < bounds.size(); ++body) {
       const auto [way, turn] = bounds[body];
       const LanePlace at = worlds.places.body(world, static_cast<int>(body));

@@ -17,6 +17,8 @@ void require_valid(const stepping::StepperSettings& settings) {
   core::require_input(settings.threads >= 1, "the worlds are stepped by at least 1 thread");
   core::require_input(settings.substeps >= 1, "a step has at least 1 substep");
   core::require_input(settings.tolerance_m >= 0, "the tolerance of a step is a length, or 0 for none");
+  core::require_input(settings.approach_m >= 0,
+                      "what bodies may approach in a step is a length, or 0 for any");
   core::require_input(settings.law.warm_start >= 0 && settings.law.warm_start <= 1,
                       "warm start: the share of the impulses to take over is 0 to 1");
   const stepping::SorLaw& law = settings.law;
@@ -25,6 +27,10 @@ void require_valid(const stepping::StepperSettings& settings) {
                       "Newton's method solves rigid rows with cones of friction: it needs --law coulomb");
   core::require_input(has_simd(settings.simd),
                       "this machine lacks the instruction set asked for with --simd; use auto");
+}
+
+double most_approach_m(const stepping::StepperSettings& settings) {
+  return remembers(settings) && settings.approach_m > 0 ? settings.approach_m : model::infinity;
 }
 
 void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory) {

@@ -27,6 +27,10 @@ inline bool adds_substeps(const stepping::StepperSettings& settings) {
   return settings.law.most_substeps > settings.substeps && remembers(settings);
 }
 
+/// [m] By how much bodies may approach each other in a step that is not cut into pieces; infinite where none
+/// is: also without memory, since a piece starts with the forces of the one before.
+double most_approach_m(const stepping::StepperSettings& settings);
+
 /// Completes the memory of a state with which a world starts for the steps of a run: zero forces where none
 /// are known, or no memory at all.
 void start_memory(bool remembers, const model::Model& model, model::StepMemory& memory);

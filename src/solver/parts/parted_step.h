@@ -1,4 +1,5 @@
-/// A step of a pack in which some islands get more or fewer substeps, or iterations, than others.
+/// A step of a pack in which some islands get more or fewer substeps, or iterations, than others, or contacts
+/// of their own in each piece of the step.
 #pragma once
 
 #include <span>
@@ -6,6 +7,7 @@
 
 #include "core/clock.h"
 #include "effects/field_of_interest.h"
+#include "solver/contacts/contact_recall.h"
 #include "solver/pack/pack.h"
 #include "solver/parts/island_shares.h"
 
@@ -15,7 +17,7 @@ namespace pbmpi::solver {
 struct PartedWorld {
   const model::Model* model = nullptr;
   std::span<const int> bodies;     ///< the bodies that are to move
-  model::SolvedContacts contacts;  ///< between these bodies
+  model::SolvedContacts contacts;  ///< between these bodies, and approaches
   /// The field that has sorted the bodies; null without the effect.
   const effects::FieldOfInterest* field = nullptr;
   /// The shares that have sorted the bodies; null where all islands get the same.
@@ -30,6 +32,9 @@ struct PartedWorld {
 /// one part active: first quiet islands, which are on trial, then the rest together with failed trials,
 /// fewest substeps and iterations first. An island gets the same bits as in a pack without the other islands.
 ///
+/// Fine islands take the step in pieces (fine_islands.h): from the second on with the contacts that they then
+/// have, which start with the forces of the piece before.
+///
 /// A step is begin() and take().
 class PartedStep {
  public:
@@ -41,6 +46,11 @@ class PartedStep {
   /// Takes the step, the last part last.
   void take(Pack& pack, core::PhaseTimes& times);
 
+  /// Did fine islands take the step? Then its contacts have changed on the way.
+  bool has_fine() const { return has_fine_; }
+  /// With has_fine(), after take(): the contacts of a world and their forces as the step ended, without
+  /// approaches; valid until the next begin().
+  model::SolvedContacts ended(int world) { return fine_[static_cast<std::size_t>(world)].ended.solved(); }
   /// As in Pack, for the whole step; valid until the next begin().
   int joint_rows(const Pack& pack, int world, int joint) const;
   /// Failed trials count too.
@@ -54,6 +64,7 @@ class PartedStep {
     bool on_trial = false;  ///< one substep
     int substeps = 1;       ///< unless on trial; more substeps than the run's mean stiffer springs
     int iterations = 1;
+    int pieces = 1;                             ///< of the step, with contacts of their own
     std::vector<std::vector<int>> bodies = {};  ///< [num_worlds]
 
     bool operator<(const Part& other) const;
@@ -68,6 +79,23 @@ class PartedStep {
     stepping::Residuals residuals;
     std::vector<model::ContactForce> forces;  ///< with which the contacts start
   };
+  /// Contacts of a world with their forces.
+  struct OwnContacts {
+    std::vector<model::Contact> contacts;
+    std::vector<model::ContactForce> forces;
+
+    void clear();
+    void add(const model::SolvedContacts& from, std::size_t index);
+    /// Adds others, too, in canonical order.
+    void merge(const model::SolvedContacts& from);
+    model::SolvedContacts solved() { return {contacts, forces}; }
+  };
+  /// A world with fine islands.
+  struct Fine {
+    OwnContacts now;    ///< of the part and piece that is being taken
+    OwnContacts ended;  ///< of all parts, as the step ends
+    ContactRecall recall;
+  };
 
   bool has_parts() const;
   void sort_bodies();
@@ -75,6 +103,12 @@ class PartedStep {
   std::vector<std::vector<int>>& bodies_of(const Part& like);
   StepParameters parameters_of(const Part& part) const;
   void activate(Pack& pack, const Part& part) const;
+  void step(Pack& pack, std::size_t part, core::PhaseTimes& times);
+  void start_pieces(std::size_t part);
+  void collide(Pack& pack, const Part& part, double piece_s);
+  void end_pieces();
+  void end_fine();
+  bool is_in(std::size_t part, std::size_t world, const model::Contact& contact) const;
   void take_part(Pack& pack, std::size_t part, core::PhaseTimes& times);
   void judge(Pack& pack, std::size_t part);
   void put_back(Pack& pack, int world, std::span<const int> far, std::size_t part);
@@ -85,7 +119,10 @@ class PartedStep {
   std::vector<model::SolvedContacts> contacts_;  ///< [num_worlds]
   std::vector<Part> parts_;                      ///< of a step that is cut
   std::vector<Seen> seen_;                       ///< [num_worlds] of a step that is cut
+  std::vector<Fine> fine_;                       ///< [num_worlds] of a step with fine islands
+  std::vector<model::SolvedContacts> piece_;     ///< [num_worlds] those of the current piece
   std::vector<int> far_;                         ///< scratch
+  bool has_fine_ = false;
   bool cut_ = false;
   bool has_last_ = true;  ///< has the last part any bodies?
 };

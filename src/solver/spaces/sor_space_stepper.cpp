@@ -60,10 +60,9 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
                       std::vector<Contact>& contacts) override;
   void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
              core::PhaseTimes& times) override;
-  stepping::Observables count(std::span<const int> units, std::span<const Contact> contacts) const override;
+  stepping::Observables count(std::span<const int> units) const override;
   bool shows_contacts() const override { return settings_.contacts; }
-  stepping::StepContacts contacts_of(std::span<const int> units,
-                                     std::span<const Contact> contacts) const override;
+  stepping::StepContacts contacts_of(std::span<const int> units) const override;
 
  private:
   stepping::Simd simd() const {
@@ -102,7 +101,8 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   std::vector<model::GeomPair> pairs_;
   std::optional<SpaceFastBodies> fast_bodies_;  ///< none without the pass
   PartedStep parted_;                           ///< the step of the last solve()
-  ContactRecall recall_;                        ///< forces of the last solve()
+  std::vector<Contact> contacts_;               ///< with which the last solve() ended
+  ContactRecall recall_;                        ///< their forces
   std::optional<IslandShares> shares_;          ///< none where all islands get the same
   model::State after_;                          ///< with shares: see PartedWorld
   int fast_own_bodies_ = 0;                     ///< in the last step
@@ -122,11 +122,12 @@ SorSpaceStepper::SorSpaceStepper(const stepping::StepperSettings& settings,
       bodies_(*model_, map_, contact_margin_m(settings, *model_)),
       cross_(*model_, bodies_),
       packed_(*model_),
-      rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::cut, packed_.state()),
+      rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::cut, packed_.state(),
+             most_approach_m(settings)),
       active_(map_),
       shares_(IslandShares::find(*model_, settings)) {
   if (effects::StepPlan(*model_).has(effects::EffectId::fast_bodies))
-    fast_bodies_.emplace(*model_, map_, settings.dt_s);
+    fast_bodies_.emplace(*model_, map_, settings.dt_s, most_approach_m(settings));
   rules_.start();
 }
 
@@ -134,6 +135,7 @@ std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
   std::vector<PackedWorld> packed = {pack_own_first(*model_, map_, articulations_, is_own_)};
   packed[0].fallback = narrow_phase_.get();
   packed[0].lanes_collide = settings_.law.colliders == stepping::Colliders::lanes;
+  packed[0].most_approach_m = most_approach_m(settings_);
   packed[0].in_parts = shares_.has_value();
   packed[0].contact_margin_m = contact_margin_m(settings_, *model_);
   return packed;
@@ -339,12 +341,18 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   activate(units);
   if (remembers() || settings_.contacts) recall(contacts);
   part(contacts, step_parameters(settings_, step));
+  contacts_.assign(contacts.begin(), contacts.end());
   if (rules_.sleepers() != nullptr && active_.bodies().empty()) return;
   packed_.load(active_.bodies(), *pack_);
   timer.lap(core::Phase::rows);
   parted_.take(*pack_, times);
   core::LapTimer after(times);
   last_step_ = step;
+  if (parted_.has_fine()) {
+    const model::SolvedContacts ended = parted_.ended(0);
+    contacts_.assign(ended.contacts.begin(), ended.contacts.end());
+    recall_.replace(ended.forces);
+  }
   if (remembers()) recall_.store(packed_.state().memory.contacts);
   break_overloaded_joints(step);
   // A pack with sleepers puts back the other bodies.
@@ -353,24 +361,22 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   after.lap(core::Phase::integrate);
 }
 
-stepping::Observables SorSpaceStepper::count(std::span<const int> units,
-                                             std::span<const Contact> contacts) const {
+stepping::Observables SorSpaceStepper::count(std::span<const int> units) const {
   const auto joint_rows = [&](int joint) -> std::optional<int> {
     if (!state().acted_in(last_step_, static_cast<std::size_t>(joint))) return std::nullopt;
     return parted_.joint_rows(*pack_, 0, joint);
   };
   stepping::Observables counts = count_islands(
-      *model_, map_, articulations_, units, contacts, joint_rows,
+      *model_, map_, articulations_, units, contacts_, joint_rows,
       [&](int body) { return parted_.sweeps(0, body); }, rules_.sleepers());
   counts.fast_bodies = fast_own_bodies_;
   counts.bodies_inside = bodies_inside_;
   return counts;
 }
 
-stepping::StepContacts SorSpaceStepper::contacts_of(std::span<const int> units,
-                                                    std::span<const Contact> contacts) const {
+stepping::StepContacts SorSpaceStepper::contacts_of(std::span<const int> units) const {
   stepping::StepContacts shown;
-  shown.contacts = recall_.loaded(contacts);
+  shown.contacts = recall_.loaded(contacts_);
   model::State stored;
   stored.resize(model_->num_bodies());
   stored.memory.joints.resize(model_->joints.size());

@@ -2,12 +2,18 @@
 
 namespace pbmpi::solver {
 
-SpaceFastBodies::SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s)
-    : model_(&model), map_(&map), dt_s_(dt_s), all_(model), owner_of_body_(model.bodies.size()) {}
+SpaceFastBodies::SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s,
+                                 double most_approach_m)
+    : model_(&model),
+      map_(&map),
+      dt_s_(dt_s),
+      most_approach_m_(most_approach_m),
+      all_(model, {}, most_approach_m),
+      owner_of_body_(model.bodies.size()) {}
 
 std::vector<int> SpaceFastBodies::find_own(const model::State& state) {
   own_->look(state, dt_s_);
-  return own_->bodies();
+  return own_->moving_bodies();
 }
 
 int SpaceFastBodies::add_own(const model::State& state, std::vector<model::Contact>& contacts) {

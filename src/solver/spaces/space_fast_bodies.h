@@ -1,4 +1,4 @@
-/// Speculative contacts of fast bodies in a world cut into spaces, as one rank finds them.
+/// Speculative contacts and approaches in a world cut into spaces, as one rank finds them.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,17 @@ namespace pbmpi::solver {
 class SpaceFastBodies {
  public:
   /// `model` and `map` are borrowed.
-  SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s);
+  /// `most_approach_m`: see FastBodies.
+  SpaceFastBodies(const model::Model& model, const model::SpaceMap& map, double dt_s, double most_approach_m);
 
   /// Makes these bodies [num_bodies] this rank's own from now on.
-  void own(std::span<const char> is_own) { own_.emplace(*model_, is_own); }
+  void own(std::span<const char> is_own) { own_.emplace(*model_, is_own, most_approach_m_); }
   /// Takes in which joints are broken from now on (State::broken_in); after own().
   void set_broken(std::span<const std::int32_t> broken_in) {
     own_->set_broken(broken_in);
     all_.set_broken(broken_in);
   }
-  /// Finds the own bodies that are fast, ascending.
+  /// Finds the own bodies that are fast or may approach others, ascending.
   std::vector<int> find_own(const model::State& state);
   /// Returns how many own bodies are fast.
   int add_own(const model::State& state, std::vector<model::Contact>& contacts);
@@ -36,7 +37,7 @@ class SpaceFastBodies {
  private:
   const model::Model* model_;
   const model::SpaceMap* map_;
-  double dt_s_;
+  double dt_s_, most_approach_m_;
   std::optional<effects::FastBodies> own_;
   effects::FastBodies all_;
   std::vector<int> owner_of_body_;  ///< scratch

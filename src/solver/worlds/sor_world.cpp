@@ -76,7 +76,8 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       laws_(laws_of(*model_)),
       state_(state),
       step_(step),
-      rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_),
+      rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_,
+             most_approach_m(settings)),
       narrow_phase_(make_narrow_phase(*model_)),
       remembers_(remembers(settings)),
       shows_contacts_(settings.contacts),
@@ -145,7 +146,7 @@ void SorWorld::before_solve(Pack& pack, int index, bool may_be_slow, std::vector
   InPack world(*this, pack, index, &contacts, nullptr);
   rules_.before_solve(world);
   if (remembers_ || shows_contacts_) recall(pack, index, contacts);
-  sorted_ = shares_ && (may_be_slow || shares_->may_add_substeps());
+  sorted_ = shares_ && (may_be_slow || shares_->may_add_substeps() || shares_->may_cut(contacts));
   if (sorted_) sort_islands(pack, index, contacts);
 }
 
@@ -182,13 +183,14 @@ void SorWorld::recall(const Pack& pack, int index, std::span<const model::Contac
       [&](const model::ContactForce& old) { return is_asleep(old.body_a) || is_asleep(old.body_b); });
 }
 
-void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts,
-                           const PartedStep& step) {
+void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, PartedStep& step) {
   moved_ = moved_ || moves();
+  if (step.has_fine()) recall_.replace(step.ended(index).forces);
   if (remembers_) recall_.store(state_.memory.contacts);
   if (step.is_cut()) activate(pack, index);
   InPack world(*this, pack, index, &contacts, &step);
   rules_.after_solve(world, step_);
+  if (step.has_fine()) contacts.assign(step.ended(index).contacts.begin(), step.ended(index).contacts.end());
   ++step_;
 }
 

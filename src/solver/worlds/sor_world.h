@@ -60,7 +60,8 @@ class SorWorld {
   void before_solve(Pack& pack, int index, bool may_be_slow, std::vector<model::Contact>& contacts);
   /// The world as it enters the solve.
   PartedWorld parted(std::span<const model::Contact> contacts);
-  void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, const PartedStep& step);
+  /// Replaces the contacts by those with which the step ended, if it has changed them.
+  void after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, PartedStep& step);
   /// Replaces all calls after begin_step() if no world of the pack moves.
   void sleep_on();
 

@@ -20,7 +20,8 @@ WorldGroup::WorldGroup(std::vector<SorWorld*> worlds, const stepping::StepperSet
   for (const SorWorld* world : worlds_)
     packed.push_back({&world->model(), find_articulations(world->model()), &world->narrow_phase(),
                       settings.law.colliders == stepping::Colliders::lanes,
-                      contact_margin_m(settings, world->model()), world->moves_in_parts()});
+                      contact_margin_m(settings, world->model()), most_approach_m(settings),
+                      world->moves_in_parts()});
   pack_ = make_pack(packed, settings.simd, settings.precision);
   for (std::size_t i = 0; i < worlds_.size(); ++i) worlds_[i]->enter(*pack_, static_cast<int>(i));
 }

@@ -25,6 +25,7 @@ SOR = {
     "half the step": ("--dt", 0.005),
     "sleeping": ("--effects", "+sleeping,+drag"),
     "tolerance": ("--tolerance", "0.1mm"),
+    "approach": ("--approach", "5cm", "--effects", "+sleeping"),
     "field of interest": ("--effects", "+field_of_interest,+restitution"),
 }
 ODE = {"quick": SCENES + EFFECT_SCENES, "direct": ("2-Cars", "CrashSk", "100CrSk")}  # the big matrix of the others takes minutes

@@ -13,7 +13,7 @@ from harness import ProgramTest  # noqa: E402
 CHANGED = {
     "replicas": ("3", []), "parameters": ("worlds.csv", []), "world-range": ("1:2", ["--replicas", "3"]), "frames": ("2", []),
     "warmup": ("1", []), "seed": ("5", []), "effects": ("-friction", []), "stepper": ("quick", []), "law": ("ode", []),
-    "dt": ("0.005", []), "iterations": ("3", []), "substeps": ("4", []), "tolerance": ("2cm", []), "precision": ("single", []),
+    "dt": ("0.005", []), "iterations": ("3", []), "substeps": ("4", []), "tolerance": ("2cm", []), "approach": ("2cm", []), "precision": ("single", []),
     "simd": ("sse2", []), "threads": ("2", []), "solver-seed": ("9", []), "steps-per-frame": ("2", []), "on-blowup": ("stop", []),
     "feec": ("quick iterations=3", []), "decompose": ("worlds", []), "ranks-per-world": ("2", ["--scene", "Battle2", "--decompose", "spaces"]),
     "record-every": ("2", []), "record": ("contacts,residuals", []), "budget": ("7ms", []),
@@ -50,7 +50,7 @@ class Options(ProgramTest):
                 if name == "simd":
                     self.assertTrue(stored.startswith("sse2"))
                 elif name not in IN_FILE:
-                    expected = {"tolerance": 0.02, "budget": 0.007}.get(name, CHANGED[name][0])
+                    expected = {"tolerance": 0.02, "approach": 0.02, "budget": 0.007}.get(name, CHANGED[name][0])
                     self.assertEqual(type(expected)(stored), expected)
 
     def test_each_is_described(self):

@@ -43,10 +43,7 @@ class WrappedSpaceStepper : public stepping::SpaceStepper {
              core::PhaseTimes& times) override {
     inner_->solve(units, contacts, step, times);
   }
-  stepping::Observables count(std::span<const int> units,
-                              std::span<const model::Contact> contacts) const override {
-    return inner_->count(units, contacts);
-  }
+  stepping::Observables count(std::span<const int> units) const override { return inner_->count(units); }
 
  protected:
   stepping::SpaceStepper& inner() { return *inner_; }

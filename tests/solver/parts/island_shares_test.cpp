@@ -17,10 +17,12 @@ struct Lengths {
   const char* name;
   double tolerance_m;
   double contact_hz = model::infinity;  ///< with softer contacts the stacks are tall
+  double approach_m = 0;
 
   StepperSettings settings() const {
     StepperSettings settings = default_settings(stepping::StepperKind::sor);
     settings.tolerance_m = tolerance_m;
+    settings.approach_m = approach_m;
     settings.law.contact_frequency = contact_hz;
     return settings;
   }
@@ -30,7 +32,9 @@ class IslandShares : public testing::TestWithParam<Lengths> {};
 
 INSTANTIATE_TEST_SUITE_P(Lengths, IslandShares,
                          testing::Values(Lengths{"tolerance", 3e-5}, Lengths{"tall", 0, 12},
-                                         Lengths{"tall_with_tolerance", 3e-5, 12}),
+                                         Lengths{"tall_with_tolerance", 3e-5, 12},
+                                         Lengths{"approach", 0, model::infinity, 0.02},
+                                         Lengths{"all", 3e-5, 12, 0.02}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST_P(IslandShares, each_island_has_the_bits_of_a_run_of_its_own) {

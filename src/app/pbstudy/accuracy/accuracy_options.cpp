@@ -10,13 +10,14 @@ namespace {
 namespace po = boost::program_options;
 
 /// In the order in which cases are crossed, the last varying fastest.
-constexpr std::array<VariedOption, 6> varied = {{
+constexpr std::array<VariedOption, 7> varied = {{
     {"stepper", "quick, direct, sor, bullet, mujoco; default: quick sor", "quick sor"},
     {"law", "sor: ode, soft, coulomb; default: ode soft", "ode soft"},
     {"iterations", "but of --law soft, which takes 1; default: 1 5 20 80", "1 5 20 80"},
     {"substeps", "sor; default: 1 2 4 7 14", "1 2 4 7 14"},
     {"precision", "sor: double, single; default: both", "double single"},
     {"tolerance", "soft law: below how long a way an island gets one substep; default: 0", "0"},
+    {"approach", "soft law: how far bodies may approach in a step before it is cut; default: 0, any", "0"},
 }};
 constexpr VariedOption varied_dt = {
     "dt",

@@ -30,6 +30,7 @@ std::span<const std::string> useful(const SettingList& list, const stepping::Ste
   if (!fits(*list.option, base.kind)) return {};
   if (list.option->name == "iterations" && !traits_of(base.kind).iterates) return values.first(1);
   if (list.option->name == "iterations" && is_soft(base)) return {};
+  if (list.option->name == "approach" && !is_soft(base)) return {};
   if (list.option->name == "tolerance" && (!is_soft(base) || base.substeps == 1)) return {};
   return values;
 }

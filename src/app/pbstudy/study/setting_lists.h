@@ -39,9 +39,9 @@ std::vector<SettingList> setting_lists(std::span<const VariedOption> varied,
 stepping::StepperSettings usual_settings(const stepping::StepperSettings& settings, stepping::Law law);
 
 /// Takes each combination over `base`, the last list varying fastest. A stepper or a law brings its
-/// usual_settings(). An option that a setting has no use for
-/// (one that its stepper lacks, iterations without sweeps, a tolerance without a second substep or a memory)
-/// takes one value only; sor with its soft law keeps its own number of iterations.
+/// usual_settings(). An option that a setting has no use for (one that its stepper lacks, iterations without
+/// sweeps, a tolerance without a second substep or a memory, an approach without a memory) takes one value
+/// only; sor with its soft law keeps its own number of iterations.
 void cross_settings(const stepping::StepperSettings& base, std::span<const SettingList> lists,
                     const std::function<void(const stepping::StepperSettings&)>& take);
 
