@@ -18,8 +18,8 @@ namespace {
 /// folder, which `source.file` begins with.
 SceneSource read_model_scene(SceneSource source) {
   xml::Texts texts{{source.file, source.text}};
-  for (auto missing = missing_includes(texts, source.file); !missing.empty();
-       missing = missing_includes(texts, source.file)) {
+  for (auto missing = missing_files(texts, source.file); !missing.empty();
+       missing = missing_files(texts, source.file)) {
     for (const std::string& file : missing)
       texts[file] = core::read_input_file(file, source.file + " includes it: give the path of an MJCF");
   }

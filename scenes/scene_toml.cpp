@@ -201,7 +201,7 @@ std::vector<std::string> missing_files(const SceneSource& source) {
     if (actor == nullptr || (*actor)["type"].value<std::string>() != "model") continue;
     const auto file = (*actor)["file"].value<std::string>();
     if (!file) continue;
-    for (const std::string& one : missing_includes(texts, *file)) {
+    for (const std::string& one : missing_files(texts, *file)) {
       if (std::ranges::find(missing, one) == missing.end()) missing.push_back(one);
     }
   }

@@ -19,10 +19,9 @@ bool is_model_file(const std::string& path) {
 links::ModelFile read_model_file(const xml::Texts& texts, const std::string& file,
                                  const ModelChoices& choices, xml::Notes& notes) {
   const xml::LeaveOut leave_out(choices.leave_out, notes);
-  xml::Element root = xml::parse(texts.at(file), file);
+  const xml::Element root = xml::parse(texts.at(file), file);
   if (root.name == "mujoco") {
-    xml::expand_includes(root, file, texts, leave_out);
-    return mjcf::read(root, choices.keyframe, leave_out);
+    return mjcf::read(file, texts, choices.keyframe, leave_out);
   }
   core::require_input(root.name == "robot", root.where +
                                                 ": neither MJCF (<mujoco>) nor URDF (<robot>), but " +
@@ -32,16 +31,18 @@ links::ModelFile read_model_file(const xml::Texts& texts, const std::string& fil
   return urdf::read(root, leave_out);
 }
 
-std::vector<std::string> missing_includes(const xml::Texts& texts, const std::string& file) {
-  std::vector<std::string> missing, found{file};
+std::vector<std::string> missing_files(const xml::Texts& texts, const std::string& file) {
+  std::vector<std::string> missing;
+  std::vector<xml::ModelPart> found{{file, file}};
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const auto text = texts.find(found[i]);
+    const auto text = texts.find(found[i].file);
     if (text == texts.end()) {
-      missing.push_back(found[i]);
+      missing.push_back(found[i].file);
       continue;
     }
-    for (const std::string& name : xml::included_in(text->second, found[i], file)) {
-      if (std::ranges::find(found, name) == found.end()) found.push_back(name);
+    for (xml::ModelPart& part : xml::files_in(text->second, found[i])) {
+      if (std::ranges::find(found, part.file, &xml::ModelPart::file) == found.end())
+        found.push_back(std::move(part));
     }
   }
   return missing;

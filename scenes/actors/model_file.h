@@ -21,11 +21,11 @@ struct ModelChoices {
 };
 
 /// Reads MJCF (root `<mujoco>`) or URDF (root `<robot>`). `file`: its name in `texts`, which also have what
-/// it includes, and in messages. Throws core::InputError "file:line:column: ...".
+/// it includes and attaches, and in messages. Throws core::InputError "file:line:column: ...".
 links::ModelFile read_model_file(const xml::Texts& texts, const std::string& file,
                                  const ModelChoices& choices, xml::Notes& notes);
 
-/// The files that a model includes, directly or not, and that `texts` lack.
-std::vector<std::string> missing_includes(const xml::Texts& texts, const std::string& file);
+/// The files that a model includes or attaches, directly or not, and that `texts` lack.
+std::vector<std::string> missing_files(const xml::Texts& texts, const std::string& file);
 
 }  // namespace pbmpi::scenes

@@ -23,6 +23,9 @@ void refuse_double_names(const Mechanism& mechanism) {
                           joint.where + ": a second joint " + core::in_quotes(joint.name) + "; rename one");
     }
   }
+  for (const Closure& closure : mechanism.closures)
+    core::require_input(joints.insert(closure.name).second,
+                        closure.where + ": a second joint " + core::in_quotes(closure.name) + "; rename one");
 }
 
 /// Does a single joint of the Model connect the body to its parent?
@@ -84,9 +87,42 @@ Assembly::Assembly(const Mechanism& mechanism, double dt_s, xml::Notes& notes)
     if (rigid.parent > 0 && !chain.pieces.empty())
       (is_joined(chain) ? joined : apart).emplace_back(rigid.parent, static_cast<int>(i));
   }
+  take_closures(mechanism, notes);
+  for (const Closure& closure : closures_) {
+    if (closure.link > 0 && closure.other > 0) joined.emplace_back(closure.link, closure.other);
+  }
   groups_ = contact_groups(mechanism, tree_, apart, joined, notes);
   mu_of_group_ = frictions(tree_, groups_, notes);
   note_chains(notes);
+}
+
+/// Two rigids of which one hangs on the world by no joint need no closure. A weld holds the two where they
+/// start.
+void Assembly::take_closures(const Mechanism& mechanism, xml::Notes& notes) {
+  if (mechanism.closures.empty()) return;
+  constexpr double rounding = 1e-6;  // [m], and of a quaternion, of a user's digits
+  const std::vector<Pose> poses = poses_of(at_start(mechanism));
+  for (const Closure& given : mechanism.closures) {
+    const auto link = static_cast<std::size_t>(given.link), other = static_cast<std::size_t>(given.other);
+    Closure closure = given;
+    closure.link = tree_.rigid_of[link];
+    closure.other = tree_.rigid_of[other];
+    closure.in_link = compose(poses[link], given.in_link);
+    closure.in_other = compose(poses[other], given.in_other);
+    if (closure.link == closure.other) {
+      notes.add(given.where, "what it connects is one body: it is left out");
+      continue;
+    }
+    const Eigen::Quaterniond turn =
+        closure.in_link.orientation.to_eigen().conjugate() * closure.in_other.orientation.to_eigen();
+    const bool is_apart = (closure.in_link.position - closure.in_other.position).norm() > rounding;
+    core::require_input(!given.holds_turn || (!is_apart && turn.vec().norm() <= rounding),
+                        given.where +
+                            ": a weld holds bodies where they start, and these are to move together "
+                            "first; place them so");
+    if (is_apart) notes.add(given.where, "the points that it connects start apart, and are pulled together");
+    closures_.push_back(std::move(closure));
+  }
 }
 
 void Assembly::note_chains(xml::Notes& notes) const {
@@ -116,6 +152,7 @@ class Assembly::Builder {
     bodies_.push_back(model::no_body);
     for (std::size_t i = 1; i < rigids.size(); ++i) add_link(i);
     for (std::size_t i = 1; i < rigids.size(); ++i) add_chain(i);
+    for (const Closure& closure : assembly_.closures_) add_closure(closure);
   }
 
  private:
@@ -233,6 +270,20 @@ class Assembly::Builder {
       joint.motors[1] = motors.front();
       joint.armature[1] = outer.armature;
     }
+    model_.joints.push_back(std::move(joint));
+  }
+
+  /// The first body of a joint moves.
+  void add_closure(const Closure& closure) {
+    const bool is_turned = closure.link == 0;
+    const int a = bodies_[static_cast<std::size_t>(is_turned ? closure.other : closure.link)];
+    const int b = bodies_[static_cast<std::size_t>(is_turned ? closure.link : closure.other)];
+    const auto at = [&](const Pose& frame) { return place_.pose.point_to_outer(frame.position); };
+    const Vec3 on_a = at(is_turned ? closure.in_other : closure.in_link),
+               on_b = at(is_turned ? closure.in_link : closure.in_other);
+    const auto kind = closure.holds_turn ? model::JointKind::fixed : model::JointKind::ball;
+    model::Joint joint = join(model_, named(closure.name), kind, a, b, on_a);
+    if (on_a != on_b) joint.anchor_b = join(model_, "", kind, a, b, on_b).anchor_b;
     model_.joints.push_back(std::move(joint));
   }
 

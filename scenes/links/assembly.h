@@ -31,9 +31,12 @@ class Assembly {
  private:
   class Builder;
   void note_chains(xml::Notes& notes) const;
+  void take_closures(const Mechanism& mechanism, xml::Notes& notes);
 
   RigidTree tree_;
   std::vector<JointChain> chains_;  ///< [num_rigids]
+  /// What connects two rigids besides the tree's joints, with frames in the mechanism's frame at the start.
+  std::vector<Closure> closures_;
   ContactGroups groups_;
   std::vector<double> mu_of_group_;  ///< friction that all geoms of a group share
   double dt_s_;

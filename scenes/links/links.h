@@ -65,9 +65,19 @@ struct Link {
   std::vector<LinkGeom> geoms;
 };
 
+/// Holds two links together besides the joints of the tree, as what closes a loop does.
+struct Closure {
+  std::string name;
+  std::string where;
+  bool holds_turn = false;  ///< else the two turn about a point, as on a ball joint
+  int link = 0, other = 0;  ///< indices of links
+  Pose in_link, in_other;   ///< the frames that coincide, or whose origins do, in the frames of the links
+};
+
 struct Mechanism {
   std::string name;
   std::vector<Link> links;
+  std::vector<Closure> closures;
   /// Pairs of links whose geoms never touch, in addition to those that a joint connects.
   std::vector<std::pair<int, int>> apart;
   bool self_collision = true;  ///< may geoms of different links touch at all?

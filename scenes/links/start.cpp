@@ -38,6 +38,16 @@ void describe_from(const Pose& pose, LinkJoint& joint) {
   joint.axis = (back * joint.axis).normalized();
 }
 
+std::vector<Pose> poses_of(const Mechanism& mechanism) {
+  std::vector<Pose> poses;
+  poses.reserve(mechanism.links.size());
+  for (const Link& link : mechanism.links)
+    poses.push_back(link.parent == no_link
+                        ? link.pose
+                        : compose(poses[static_cast<std::size_t>(link.parent)], link.pose));
+  return poses;
+}
+
 Mechanism at_start(Mechanism mechanism) {
   for (Link& link : mechanism.links) start(link);
   return mechanism;

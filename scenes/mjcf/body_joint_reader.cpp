@@ -59,8 +59,13 @@ ReadJoint read_joint(Attributes attributes, const std::string& name, const Compi
   joint.drive.stiffness = attributes.number("stiffness", Range::non_negative, 0.0);
   joint.drive.friction = attributes.number("frictionloss", Range::non_negative, 0.0);
   joint.drive.target = value_of("springref") - joint.reference;
+  if (!option.has_dampers) joint.drive.damping = 0;
+  if (!option.has_springs) joint.drive.stiffness = 0;
+  if (!option.has_friction) joint.drive.friction = 0;
   joint.armature = attributes.number("armature", Range::non_negative, 0.0);
-  const bool is_limited = compiler.is_limited(attributes, "limited", "range") && option.has_limits;
+  attributes.allow({"limited", "range"});
+  const bool may_have_limits = joint.motion != Motion::free && option.has_limits;
+  const bool is_limited = may_have_limits && compiler.is_limited(attributes, "limited", "range");
   if (!is_hinge && !is_slide) refuse_axis_laws(attributes, joint, is_limited);
   if (is_limited) joint.limit = read_range(attributes, is_hinge, joint.reference, compiler);
   attributes.refuse({"springdamper"}, "give 'stiffness' and 'damping' instead");

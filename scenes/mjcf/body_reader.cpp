@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <optional>
 #include <set>
 
 #include "core/error.h"
@@ -16,115 +18,238 @@ namespace {
 using xml::Attributes;
 
 /// Elements that are seen or measured, and do not affect motion.
-constexpr std::array<std::string_view, 3> onlookers_of_bodies = {"site", "camera", "light"};
+constexpr std::array<std::string_view, 2> onlookers_of_bodies = {"camera", "light"};
 
-void collect_names(const xml::Element& element, std::set<std::string>& names) {
-  for (const xml::Element& child : element.children) {
-    if (child.name != "body") continue;
-    names.insert(Attributes(child).text("name", ""));
-    collect_names(child, names);
-  }
+/// What elements take from those around them.
+struct Scope {
+  const Part* part = nullptr;
+  std::string childclass;
+  Pose frame;                  ///< of <frame>s, in the frame of the body around them
+  std::string prefix, suffix;  ///< of names
+  std::vector<Copy> copies;
+  std::vector<const xml::Element*> attaching;  ///< the <attach> elements around, outermost first
+
+  const Context& context() const { return *part->context; }
+  /// A name of the file as the mechanism has it.
+  std::string named(const std::string& name) const { return name.empty() ? name : prefix + name + suffix; }
+  Named place_of(const std::string& name) const { return {name, part, copies}; }
+};
+
+constexpr std::size_t most_attached = 50;  // one within another: more would overflow the stack
+
+struct MassOfGeoms {
+  std::optional<MassProperties> known;
+  std::string unknown;  ///< why the mass of a geom is not known; empty: all are
+};
+
+/// The number of a copy, with as many digits as the last one has.
+std::string number_of(int copy, int count) {
+  const std::string number = std::to_string(copy);
+  return std::string(std::to_string(count - 1).size() - number.size(), '0') + number;
 }
 
 class BodyReader {
  public:
-  BodyReader(const Context& context, links::Mechanism& mechanism)
-      : context_(context), mechanism_(mechanism), notes_(context.leave_out.notes()) {}
+  BodyReader(Attachments& attachments, links::Mechanism& mechanism)
+      : attachments_(attachments),
+        mechanism_(mechanism),
+        leave_out_(attachments.main().context->leave_out),
+        notes_(leave_out_.notes()) {}
 
-  void read_worlds(const std::vector<const xml::Element*>& worlds) {
+  Places read() {
+    const std::vector<const xml::Element*> worlds = attachments_.main().sections("worldbody");
+    Scope scope;
+    scope.part = &attachments_.main();
     links::Link link;
     link.name = "world";
     link.where = worlds.front()->where;
     mechanism_.links.push_back(std::move(link));
-    for (const xml::Element* world : worlds) collect_names(*world, given_names_);
+    places_.bodies.push_back({{"world", nullptr, {}}, 0});
     for (const xml::Element* world : worlds) {
-      Attributes(*world, context_.leave_out).finish();
-      read_children(*world, 0, "");
+      Attributes(*world, leave_out_).finish();
+      read_children(*world, 0, scope);
     }
+    name_the_nameless();
+    return std::move(places_);
   }
 
-  std::vector<JointPlace> take_joints() { return std::move(joints_); }
-
  private:
-  void read_body(const xml::Element& element, int parent, std::string childclass) {
-    Attributes body(element, context_.leave_out);
+  using Visit = std::function<void(const xml::Element&, const Scope&)>;
+
+  void read_body(const xml::Element& element, int parent, const Scope& around) {
+    const Context& context = around.context();
+    Attributes body(element, leave_out_);
     const auto index = static_cast<int>(mechanism_.links.size());
+    const std::string name = body.text("name", "");
     links::Link link;
-    link.name = body.text("name", unused_name(index));
+    link.name = around.named(name);
     link.where = element.where;
     link.parent = parent;
-    link.pose = read_pose(body, context_.compiler);
-    childclass = body.text("childclass", childclass);
-    if (body.flag("mocap", false))
-      body.fail_unless_left_out("mocap",
-                                "'mocap' bodies, which are moved from outside, have no equal; take it out");
+    link.pose = compose(around.frame, read_pose(body, context.compiler));
+    Scope scope = around;
+    scope.frame = {};
+    scope.childclass = body.text("childclass", around.childclass);
+    if (body.flag("mocap", false)) {
+      notes_.add(element.where, "'mocap' bodies stand where they are: nothing moves them");
+      places_.mocap_links.push_back(index);
+    }
     if (body.number("gravcomp", xml::Range::any, 0.0) != 0)
       body.fail_unless_left_out("gravcomp", "gravity acts on all bodies alike; take 'gravcomp' out");
     body.allow({"user", "sleep"});
     body.finish();
     mechanism_.links.push_back(std::move(link));
-    read_children(element, index, childclass);
+    places_.bodies.push_back({scope.place_of(name), index});
+    read_children(element, index, scope);
   }
 
-  /// A name for a body that has none.
-  std::string unused_name(int index) const {
-    std::string name = "body" + std::to_string(index);
-    while (given_names_.contains(name)) name += '_';
-    return name;
+  /// Visits the elements below one, with all copies, those of frames and of what is attached included.
+  void for_each(const xml::Element& element, const Scope& scope, const Visit& visit) {
+    for (const xml::Element& child : element.children) {
+      count(child, 1);
+      if (child.name == "frame")
+        for_each(child, in_frame(child, scope), visit);
+      else if (child.name == "replicate")
+        replicate(child, scope, visit);
+      else if (child.name == "attach" && !leave_out_.drops(child.name, child.where))
+        attach(child, scope, visit);
+      else if (child.name != "attach")
+        visit(child, scope);
+    }
+  }
+
+  void count(const xml::Element& element, int more) {
+    if (more > most_elements - num_elements_)
+      throw core::InputError(element.where + ": " + element.name +
+                             ": with all copies the model has more than " + std::to_string(most_elements) +
+                             " elements; make fewer");
+    num_elements_ += more;
+  }
+
+  Scope in_frame(const xml::Element& element, const Scope& around) {
+    Attributes frame(element, leave_out_);
+    Scope scope = around;
+    scope.frame = compose(around.frame, read_pose(frame, around.context().compiler));
+    scope.childclass = frame.text("childclass", around.childclass);
+    frame.allow({"name"});
+    frame.finish();
+    return scope;
+  }
+
+  /// Each copy stands at the `offset` from the one before, in its frame, and is turned by its number times
+  /// the angles.
+  void replicate(const xml::Element& element, const Scope& around, const Visit& visit) {
+    Attributes attributes(element, leave_out_);
+    if (!attributes.has("count")) attributes.fail("it has no 'count'; give the number of copies");
+    const int num_copies = attributes.integer("count", 1, 1);
+    count(element, num_copies);
+    const Vec3 offset = attributes.vector("offset", Vec3(Vec3::Zero()));
+    const Vec3 angles = attributes.vector("euler", Vec3(Vec3::Zero()));
+    const std::string separator = attributes.text("sep", "");
+    Scope scope = around;
+    scope.childclass = attributes.text("childclass", around.childclass);
+    attributes.allow({"prefix"});
+    attributes.finish();
+    scope.copies.emplace_back(&element, 0);
+    Pose pose;
+    for (int copy = 0; copy < num_copies; ++copy) {
+      pose.orientation = turn_by_euler(copy * angles, around.context().compiler);
+      scope.frame = compose(around.frame, pose);
+      scope.suffix = separator + number_of(copy, num_copies) + around.suffix;
+      scope.copies.back().second = copy;
+      for_each(element, scope, visit);
+      pose.position = pose.point_to_outer(offset);
+    }
+  }
+
+  void attach(const xml::Element& element, const Scope& around, const Visit& visit) {
+    if (std::ranges::find(around.attaching, &element) != around.attaching.end())
+      throw core::InputError(element.where + ": what is attached attaches itself; attach another part");
+    core::require_input(around.attaching.size() < most_attached,
+                        element.where + ": more than 50 <attach> within another; attach fewer");
+    const Attached attached = attachments_.attach(element, *around.part);
+    Scope scope = around;
+    scope.part = attached.part;
+    scope.childclass = attached.childclass;
+    scope.prefix = around.prefix + attached.prefix;
+    scope.attaching.push_back(&element);
+    if (attached.element->name == "body")
+      visit(*attached.element, scope);
+    else if (attached.element->name == "frame")
+      for_each(*attached.element, in_frame(*attached.element, scope), visit);
+    else
+      for_each(*attached.element, scope, visit);
   }
 
   /// Child bodies come last, since their links come after this one's.
-  void read_children(const xml::Element& element, int index, const std::string& childclass) {
-    std::optional<MassProperties> inertial, of_geoms;
-    for (const xml::Element& child : element.children) {
+  void read_children(const xml::Element& element, int index, const Scope& scope) {
+    std::optional<MassProperties> inertial;
+    MassOfGeoms of_geoms;
+    std::vector<std::pair<const xml::Element*, Scope>> bodies;
+    for_each(element, scope, [&](const xml::Element& child, const Scope& inner) {
       if (child.name == "inertial") {
         core::require_input(!inertial, child.where + ": a second <inertial> of one body; leave one");
-        inertial = read_inertial(child, context_.compiler, context_.leave_out);
+        inertial = links::moved(read_inertial(child, inner.context().compiler, leave_out_), inner.frame);
       } else if (child.name == "geom") {
-        add_geom(child, index, childclass, of_geoms);
+        add_geom(child, index, inner, of_geoms);
       } else if (child.name == "joint" || child.name == "freejoint") {
-        add_joint(child, index, childclass);
-      } else if (child.name != "body") {
+        add_joint(child, index, inner);
+      } else if (child.name == "site") {
+        const xml::Attribute* name = child.find("name");
+        if (name != nullptr)
+          places_.sites.push_back(
+              {inner.place_of(name->value), index, inner.frame, &child, inner.childclass});
+      } else if (child.name == "body") {
+        bodies.emplace_back(&child, inner);
+      } else {
         skip(child);
       }
-    }
-    set_mass(inertial, of_geoms, index);
+    });
+    set_mass(inertial, of_geoms, index, scope.context().compiler);
     check_joints(index);
-    for (const xml::Element& child : element.children) {
-      if (child.name == "body") read_body(child, index, childclass);
-    }
+    for (const auto& [body, inner] : bodies) read_body(*body, index, inner);
   }
 
-  void skip(const xml::Element& child) {
+  void skip(const xml::Element& child) const {
     if (std::ranges::find(onlookers_of_bodies, child.name) != onlookers_of_bodies.end()) return;
-    if (!context_.leave_out.drops(child.name, child.where))
+    if (!leave_out_.drops(child.name, child.where))
       xml::refuse_element(child, "this element cannot be read here; write out its bodies");
   }
 
   links::Link& link(int index) { return mechanism_.links[static_cast<std::size_t>(index)]; }
 
-  void add_geom(const xml::Element& element, int index, const std::string& childclass,
-                std::optional<MassProperties>& sum) {
-    ReadGeom read = read_geom(Attributes(element, context_.defaults.of(element, childclass)),
-                              context_.compiler, context_.leave_out);
-    if (read.mass) sum = sum ? links::together(*sum, *read.mass) : *read.mass;
+  void add_geom(const xml::Element& element, int index, const Scope& scope, MassOfGeoms& sum) {
+    const Context& context = scope.context();
+    ReadGeom read = read_geom(Attributes(element, context.defaults.of(element, scope.childclass)),
+                              context.compiler, context.option, leave_out_);
+    if (read.mass) {
+      const MassProperties mass = links::moved(*read.mass, scope.frame);
+      sum.known = sum.known ? links::together(*sum.known, mass) : mass;
+    }
+    if (sum.unknown.empty()) sum.unknown = read.unknown_mass;
     if (!read.geom) return;
-    if (!context_.option.collides) read.geom->contype = read.geom->conaffinity = 0;
+    read.geom->pose = compose(scope.frame, read.geom->pose);
+    if (const xml::Attribute* name = element.find("name"))
+      places_.geoms.push_back(
+          {scope.place_of(name->value), index, static_cast<int>(link(index).geoms.size())});
     link(index).geoms.push_back(*read.geom);
   }
 
-  void add_joint(const xml::Element& element, int index, const std::string& childclass) {
+  void add_joint(const xml::Element& element, int index, const Scope& scope) {
+    const Context& context = scope.context();
     links::Link& own = link(index);
-    const std::string name =
-        own.name + ".joint" + (own.joints.empty() ? "" : std::to_string(own.joints.size() + 1));
+    const xml::Attribute* name = element.find("name");
     ReadJoint read;
     if (element.name == "freejoint") {
-      read.joint = read_free_joint(element, name, context_.leave_out);
+      read.joint = read_free_joint(element, "", leave_out_);
     } else {
-      read = read_joint(Attributes(element, context_.leave_out, context_.defaults.of(element, childclass)),
-                        name, context_.compiler, context_.option, notes_);
+      read = read_joint(Attributes(element, leave_out_, context.defaults.of(element, scope.childclass)), "",
+                        context.compiler, context.option, notes_);
     }
-    joints_.push_back({read.joint.name, index, static_cast<int>(own.joints.size()), read.most_servo_force});
+    read.joint.name = scope.named(read.joint.name);
+    read.joint.anchor = scope.frame.point_to_outer(read.joint.anchor);
+    read.joint.axis = scope.frame.direction_to_outer(read.joint.axis);
+    places_.joints.push_back({scope.place_of(name == nullptr ? "" : name->value), index,
+                              static_cast<int>(own.joints.size()), read.most_servo_force});
     own.joints.push_back(std::move(read.joint));
   }
 
@@ -142,31 +267,54 @@ class BodyReader {
 
   /// The world has no mass, whatever stands in it; every other body has at least the mass that <compiler>
   /// asks for.
-  void set_mass(const std::optional<MassProperties>& inertial, const std::optional<MassProperties>& of_geoms,
-                int index) {
+  void set_mass(const std::optional<MassProperties>& inertial, const MassOfGeoms& of_geoms, int index,
+                const Compiler& compiler) {
     if (index == 0) return;
-    const InertiaFrom from = context_.compiler.inertia_from;
-    std::optional<MassProperties> mass = from == InertiaFrom::geoms && of_geoms ? of_geoms : inertial;
-    if (from == InertiaFrom::geoms_if_none && !mass) mass = of_geoms;
-    if (!mass && context_.compiler.least_mass > 0)
-      mass = MassProperties{0, Vec3::Zero(), model::Mat3::Zero()};
-    if (mass) link(index).mass = adjusted(*mass, context_.compiler);
+    const InertiaFrom from = compiler.inertia_from;
+    const bool takes_geoms = from == InertiaFrom::geoms || (from == InertiaFrom::geoms_if_none && !inertial);
+    if (takes_geoms && !of_geoms.unknown.empty() && !is_static(index))
+      throw core::InputError(of_geoms.unknown);
+    std::optional<MassProperties> mass = takes_geoms && of_geoms.known ? of_geoms.known : inertial;
+    if (!mass && compiler.least_mass > 0) mass = MassProperties{0, Vec3::Zero(), model::Mat3::Zero()};
+    if (mass) link(index).mass = adjusted(*mass, compiler);
   }
 
-  const Context& context_;
+  /// Does neither the link nor one above it have a joint?
+  bool is_static(int index) const {
+    for (int at = index; at != links::no_link; at = mechanism_.links[static_cast<std::size_t>(at)].parent) {
+      if (!mechanism_.links[static_cast<std::size_t>(at)].joints.empty()) return false;
+    }
+    return true;
+  }
+
+  void name_the_nameless() {
+    std::set<std::string> taken;
+    for (const links::Link& one : mechanism_.links) taken.insert(one.name);
+    for (std::size_t i = 0; i < mechanism_.links.size(); ++i) {
+      links::Link& one = mechanism_.links[i];
+      if (one.name.empty()) {
+        one.name = "body" + std::to_string(i);
+        while (taken.contains(one.name)) one.name += '_';
+      }
+      for (std::size_t joint = 0; joint < one.joints.size(); ++joint) {
+        if (one.joints[joint].name.empty())
+          one.joints[joint].name = one.name + ".joint" + (joint == 0 ? "" : std::to_string(joint + 1));
+      }
+    }
+  }
+
+  Attachments& attachments_;
   links::Mechanism& mechanism_;
+  const xml::LeaveOut& leave_out_;
   xml::Notes& notes_;
-  std::set<std::string> given_names_;  ///< of bodies
-  std::vector<JointPlace> joints_;
+  Places places_;
+  int num_elements_ = 0;
 };
 
 }  // namespace
 
-std::vector<JointPlace> read_bodies(const std::vector<const xml::Element*>& worlds, const Context& context,
-                                    links::Mechanism& mechanism) {
-  BodyReader reader(context, mechanism);
-  reader.read_worlds(worlds);
-  return reader.take_joints();
+Places read_bodies(Attachments& attachments, links::Mechanism& mechanism) {
+  return BodyReader(attachments, mechanism).read();
 }
 
 }  // namespace pbmpi::scenes::mjcf

@@ -1,17 +1,16 @@
 /// MJCF's `<worldbody>`: the tree of bodies.
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "scenes/mjcf/defaults.h"
-#include "scenes/mjcf/servo_reader.h"
+#include "scenes/mjcf/places.h"
 
 namespace pbmpi::scenes::mjcf {
 
-/// Reads the bodies below all `<worldbody>` as links, parents before children; the geoms of the world itself
-/// are a link without joints. Returns the joints in the order of MuJoCo's qpos.
-std::vector<JointPlace> read_bodies(const std::vector<const xml::Element*>& worlds, const Context& context,
-                                    links::Mechanism& mechanism);
+/// Reads the bodies below all `<worldbody>` of the main part as links, parents before children; the geoms of
+/// the world itself are a link without joints. `<frame>`, `<replicate>` and `<attach>` are written out, which
+/// adds parts to `attachments`. Throws core::InputError.
+Places read_bodies(Attachments& attachments, links::Mechanism& mechanism);
+
+/// Most bodies, geoms, joints and copies that one model may have.
+inline constexpr int most_elements = 1'000'000;
 
 }  // namespace pbmpi::scenes::mjcf

@@ -27,17 +27,6 @@ std::string read_euler_sequence(Attributes& compiler) {
   return sequence;
 }
 
-Quat read_euler(Attributes& element, const Compiler& compiler) {
-  const Vec3 angles = element.vector("euler");
-  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
-  for (int i = 0; i < 3; ++i) {
-    const char letter = compiler.euler_sequence[static_cast<std::size_t>(i)];
-    const Eigen::Quaterniond turn = rotation(compiler.angle(angles[i]), axis_of(letter)).to_eigen();
-    q = letter >= 'x' ? q * turn : turn * q;
-  }
-  return Quat::from_eigen(q.normalized());
-}
-
 Quat read_axis_angle(Attributes& element, const Compiler& compiler) {
   const std::vector<double> values = element.numbers("axisangle", 4, 4);
   const Vec3 axis(values[0], values[1], values[2]);
@@ -61,18 +50,21 @@ void read_flags(const xml::Element& element, const xml::LeaveOut& leave_out, Opt
   const auto is_on = [&](std::string_view name) {
     return flags.word(name, {"enable", "disable"}, "enable") == "enable";
   };
-  option.collides = is_on("contact") && is_on("constraint") && option.collides;
-  option.has_limits = is_on("limit") && option.has_limits;
+  const bool constrains = is_on("constraint"), is_passive = is_on("passive");
+  option.collides = is_on("contact") && constrains && option.collides;
+  option.has_limits = is_on("limit") && constrains && option.has_limits;
+  option.has_equality = is_on("equality") && constrains && option.has_equality;
+  option.has_friction = is_on("frictionloss") && constrains && option.has_friction;
+  option.has_springs = is_on("spring") && is_passive && option.has_springs;
+  option.has_dampers = is_on("damper") && is_passive && option.has_dampers;
   option.has_actuators = is_on("actuation") && option.has_actuators;
+  option.clips_controls = is_on("clampctrl") && option.clips_controls;
   if (!is_on("gravity")) option.gravity = Vec3::Zero();
-  for (const std::string_view name : {"constraint", "equality", "frictionloss", "passive", "spring", "damper",
-                                      "filterparent", "clampctrl"}) {
-    if (!is_on(name))
-      flags.fail_unless_left_out(
-          name, core::in_quotes(name) + " cannot be disabled here; take out what it turns off");
-  }
+  if (!is_on("filterparent"))
+    flags.fail_unless_left_out("filterparent",
+                               "bodies that a joint connects never touch here; enable 'filterparent'");
   flags.allow({"warmstart", "refsafe", "sensor", "midphase", "eulerdamp", "nativeccd", "autoreset", "island",
-               "override", "energy", "fwdinv", "invdiscrete", "sensornoise", "multiccd"});
+               "sleep", "override", "energy", "fwdinv", "invdiscrete", "sensornoise", "multiccd"});
   flags.finish();
 }
 
@@ -116,6 +108,8 @@ void read_compiler(const xml::Element& element, const xml::LeaveOut& leave_out, 
   compiler.balances_inertia = from.flag("balanceinertia", compiler.balances_inertia);
   if (from.number("settotalmass", Range::any, -1.0) > 0) compiler.total_mass = from.number("settotalmass");
   from.word("coordinate", {"local"}, "local");
+  if (from.word("conflict", {"warning", "merge", "error"}, "warning") != "warning")
+    from.fail_unless_left_out("conflict", "the main model's settings always win; take 'conflict' out");
   from.allow({"meshdir", "texturedir", "assetdir", "strippath", "fitaabb", "discardvisual", "usethread",
               "convexhull", "fusestatic", "exactmeshinertia", "alignfree", "saveinertial"});
   from.finish();
@@ -182,10 +176,20 @@ Pose read_pose(Attributes& element, const Compiler& compiler) {
   }
   if (given == "quat") pose.orientation = element.turn("quat");
   if (given == "axisangle") pose.orientation = read_axis_angle(element, compiler);
-  if (given == "euler") pose.orientation = read_euler(element, compiler);
+  if (given == "euler") pose.orientation = turn_by_euler(element.vector("euler"), compiler);
   if (given == "xyaxes") pose.orientation = read_xy_axes(element);
   if (given == "zaxis") pose.orientation = turn_of_z(element.direction("zaxis", Vec3::UnitZ()));
   return pose;
+}
+
+Quat turn_by_euler(const Vec3& angles, const Compiler& compiler) {
+  Eigen::Quaterniond q = Eigen::Quaterniond::Identity();
+  for (int i = 0; i < 3; ++i) {
+    const char letter = compiler.euler_sequence[static_cast<std::size_t>(i)];
+    const Eigen::Quaterniond turn = rotation(compiler.angle(angles[i]), axis_of(letter)).to_eigen();
+    q = letter >= 'x' ? q * turn : turn * q;
+  }
+  return Quat::from_eigen(q.normalized());
 }
 
 Quat turn_of_z(const Vec3& direction) {

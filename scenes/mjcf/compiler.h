@@ -36,6 +36,10 @@ struct Option {
   bool collides = true;
   bool has_limits = true;
   bool has_actuators = true;
+  bool has_equality = true;
+  bool has_friction = true;  ///< of joints
+  bool has_springs = true, has_dampers = true;
+  bool clips_controls = true;  ///< to the ranges of their actuators
 };
 
 /// Reads the element; later elements of one kind complete earlier ones.
@@ -45,6 +49,9 @@ void read_option(const xml::Element& element, const xml::LeaveOut& leave_out, Op
 /// Reads the position and the orientation of an element in the frame around it: `pos`, and one of `quat`,
 /// `axisangle`, `euler`, `xyaxes`, `zaxis`.
 Pose read_pose(xml::Attributes& attributes, const Compiler& compiler);
+
+/// The rotation by three angles, in the unit and the sequence of the file.
+Quat turn_by_euler(const Vec3& angles, const Compiler& compiler);
 
 /// The smallest rotation of the z axis into a direction, which need not have unit length.
 Quat turn_of_z(const Vec3& direction);

@@ -63,7 +63,8 @@ void Defaults::read_class(const xml::Element& element, const std::string& name) 
   }
 }
 
-std::vector<xml::Attribute> Defaults::of(const xml::Element& element, const std::string& childclass) const {
+std::vector<xml::Attribute> Defaults::of(const xml::Element& element, const std::string& childclass,
+                                         std::string_view kind) const {
   const xml::Attribute* named = element.find("class");
   const std::string name = named != nullptr     ? named->value
                            : childclass.empty() ? std::string(topmost)
@@ -76,10 +77,11 @@ std::vector<xml::Attribute> Defaults::of(const xml::Element& element, const std:
                            core::in_quotes(name) + core::suggestion(name, known));
   }
   std::vector<xml::Attribute> attributes;
-  const bool is_tendon = is_in(element.name, tendons);
-  for (const std::string& kind :
-       {is_tendon ? "tendon" : element.name, std::string(is_actuator(element.name) ? any_actuator : "")}) {
-    if (const auto own = found->second.find(kind); own != found->second.end())
+  const std::string own_kind = is_in(element.name, tendons) ? "tendon"
+                               : kind.empty()               ? element.name
+                                                            : std::string(kind);
+  for (const std::string& one : {own_kind, std::string(is_actuator(element.name) ? any_actuator : "")}) {
+    if (const auto own = found->second.find(one); own != found->second.end())
       attributes.insert(attributes.end(), own->second.begin(), own->second.end());
   }
   return attributes;

@@ -1,5 +1,8 @@
 #include "scenes/mjcf/geom_reader.h"
 
+#include <cmath>
+#include <numbers>
+
 #include <Eigen/Eigenvalues>
 
 #include "core/error.h"
@@ -79,13 +82,54 @@ MassProperties mass_of(Attributes& geom, const links::LinkGeom& read) {
   return mass_properties({solid}, mass);
 }
 
+/// Does the mass of the geom count for its body's?
+bool counts(Attributes& geom, const Compiler& compiler) {
+  const int group = geom.integer("group", -1000000, 0);
+  return group >= compiler.first_inertia_group && group <= compiler.last_inertia_group;
+}
+
+/// Three half axes.
+MassProperties mass_of_ellipsoid(Attributes& geom, const Compiler& compiler) {
+  const std::vector<double> half = geom.numbers("size", 3, 3);
+  if (half.empty()) geom.fail("it has no 'size'; give three half axes [m]");
+  const Vec3 squares(half[0] * half[0], half[1] * half[1], half[2] * half[2]);
+  const double size = 4 * std::numbers::pi / 3 * std::abs(half[0] * half[1] * half[2]);
+  const double density = geom.number("density", Range::non_negative, water);
+  const double mass = geom.number("mass", Range::non_negative, density * size);
+  Mat3 inertia = Mat3::Zero();
+  inertia.diagonal() = mass / 5 * (Vec3::Constant(squares.sum()) - squares);
+  return links::moved({mass, Vec3::Zero(), inertia}, read_pose(geom, compiler));
+}
+
+/// A geom of a shape that cannot be collided, and that touches nothing, or that the scene leaves out.
+ReadGeom read_drawing(Attributes& geom, const std::string& type, const Compiler& compiler,
+                      const xml::LeaveOut& leave_out) {
+  ReadGeom read;
+  const bool has_mass = geom.number("mass", Range::non_negative, 1.0) > 0 &&
+                        (geom.has("mass") || geom.number("density", Range::non_negative, water) > 0);
+  const std::string what = "a geom of type " + core::in_quotes(type) + " is left out";
+  if (leave_out.names(type) || !counts(geom, compiler) || !has_mass || type == "hfield") {
+    leave_out.notes().add(geom.where(), what + (leave_out.names(type) ? ", and so is its mass" : ""));
+    return read;
+  }
+  if (type == "ellipsoid" && !geom.has("fromto") && !geom.has("mesh"))
+    read.mass = mass_of_ellipsoid(geom, compiler);
+  else
+    read.unknown_mass = geom.where() + ": the mass of a geom of type " + core::in_quotes(type) +
+                        " is not known; give its body an <inertial>, or " + xml::LeaveOut::advice(type);
+  leave_out.notes().add(geom.where(), what + ": it touches nothing");
+  return read;
+}
+
 }  // namespace
 
-ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const xml::LeaveOut& leave_out) {
+ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const Option& option,
+                   const xml::LeaveOut& leave_out) {
   attributes.allow({"name", "class", "rgba", "material", "user", "hfield", "mesh", "fitscale", "fluidcoef"});
   const std::string type = attributes.text("type", attributes.has("mesh") ? "mesh" : "sphere");
-  const int contype = attributes.integer("contype", 0, 1),
-            conaffinity = attributes.integer("conaffinity", 0, 1);
+  const int contype = option.collides ? attributes.integer("contype", 0, 1) : 0;
+  const int conaffinity = option.collides ? attributes.integer("conaffinity", 0, 1) : 0;
+  attributes.allow({"contype", "conaffinity"});
   const auto shape = model::enum_from_name<Shape>(type, model::shape_names);
   if (!shape) {
     const bool is_known = type == "mesh" || type == "ellipsoid" || type == "hfield" || type == "sdf";
@@ -96,9 +140,7 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const xml::L
           "geoms of type " + core::in_quotes(type) +
               " cannot be collided here; take spheres, capsules, cylinders, boxes or planes",
           type);
-    leave_out.notes().add(attributes.where(),
-                          "a geom of type " + core::in_quotes(type) + " is left out, and so is its mass");
-    return {};
+    return read_drawing(attributes, type, compiler, leave_out);
   }
   attributes.drop(leave_out);  // now that 'mesh' can only mean the type
   attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>");
@@ -114,14 +156,13 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const xml::L
       *shape == Shape::sphere || *shape == Shape::plane ? std::nullopt : read_segment(attributes);
   if (segment) geom.pose = segment->pose;
   geom.size = read_sizes(attributes, *shape, segment);
-  const int group = attributes.integer("group", -1000000, 0);
-  ReadGeom read{geom, std::nullopt};
+  ReadGeom read{geom, std::nullopt, {}};
+  const bool has_mass = counts(attributes, compiler);
   if (*shape == Shape::plane) {
     attributes.allow({"mass", "density"});
   } else {
     const MassProperties mass = mass_of(attributes, geom);
-    const bool counts = group >= compiler.first_inertia_group && group <= compiler.last_inertia_group;
-    if (counts && mass.mass_kg > 0) read.mass = mass;
+    if (has_mass && mass.mass_kg > 0) read.mass = mass;
   }
   attributes.finish();
   return read;

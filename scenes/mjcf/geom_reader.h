@@ -9,13 +9,15 @@ namespace pbmpi::scenes::mjcf {
 
 /// A geom, its mass, and whether it counts for the inertia of its body.
 struct ReadGeom {
-  std::optional<links::LinkGeom> geom;  ///< none: a mesh that touches nothing
+  std::optional<links::LinkGeom> geom;  ///< none: a mesh or an ellipsoid that touches nothing
   std::optional<MassProperties> mass;   ///< in the body's frame
+  std::string unknown_mass;             ///< why the mass is not known, for a message; empty: it is
 };
 
 /// `attributes` include the defaults of the geom's class. A geom whose contype and conaffinity are both 0
 /// touches nothing, but has mass.
-ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler, const xml::LeaveOut& leave_out);
+ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler, const Option& option,
+                   const xml::LeaveOut& leave_out);
 
 MassProperties read_inertial(const xml::Element& element, const Compiler& compiler,
                              const xml::LeaveOut& leave_out);

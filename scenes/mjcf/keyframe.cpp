@@ -35,13 +35,33 @@ void require_rest(xml::Attributes& key) {
 Keyframe::Keyframe(const xml::Element& key, const xml::LeaveOut& leave_out) : attributes_(key, leave_out) {
   qpos_ = attributes_.numbers("qpos", 1, most_values);
   ctrl_ = attributes_.numbers("ctrl", 1, most_values);
+  mpos_ = attributes_.numbers("mpos", 1, most_values);
+  mquat_ = attributes_.numbers("mquat", 1, most_values);
   require_rest(attributes_);
-  attributes_.allow({"name", "time", "mpos", "mquat"});
+  attributes_.allow({"name", "time"});
   attributes_.finish();
 }
 
-void Keyframe::move(const std::vector<JointPlace>& joints, links::Mechanism& mechanism) const {
+void Keyframe::place_mocap(const std::vector<int>& links, links::Mechanism& mechanism) const {
+  const auto require_number = [&](const char* name, const std::vector<double>& values, std::size_t each) {
+    if (!values.empty() && values.size() != each * links.size())
+      attributes_.fail(name, core::in_quotes(name) + " has " + std::to_string(values.size()) +
+                                 " numbers for " + std::to_string(links.size()) +
+                                 " mocap bodies; give each its own");
+  };
+  require_number("mpos", mpos_, 3);
+  require_number("mquat", mquat_, 4);
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    Pose& pose = mechanism.links[static_cast<std::size_t>(links[i])].pose;
+    if (!mpos_.empty()) pose.position = {mpos_[3 * i], mpos_[3 * i + 1], mpos_[3 * i + 2]};
+    if (!mquat_.empty()) pose.orientation = unit_quat(mquat_.data() + 4 * i, attributes_);
+  }
+}
+
+void Keyframe::move(const Places& places, links::Mechanism& mechanism) const {
+  place_mocap(places.mocap_links, mechanism);
   if (qpos_.empty()) return;
+  const std::vector<JointPlace>& joints = places.joints;
   const auto joint_at = [&](const JointPlace& at) -> links::LinkJoint& {
     return mechanism.links[static_cast<std::size_t>(at.link)].joints[static_cast<std::size_t>(at.joint)];
   };
@@ -64,8 +84,11 @@ void Keyframe::move(const std::vector<JointPlace>& joints, links::Mechanism& mec
   }
 }
 
-std::vector<double> Keyframe::controls(std::size_t num_actuators) const {
+std::vector<double> Keyframe::controls(std::size_t num_actuators, bool are_copied) const {
   if (ctrl_.empty()) return std::vector<double>(num_actuators, 0);
+  if (are_copied)
+    attributes_.fail_unless_left_out(
+        "ctrl", "controls of actuators that <replicate> or <attach> copies are not read; write these out");
   if (ctrl_.size() != num_actuators)
     attributes_.fail("ctrl", "'ctrl' has " + std::to_string(ctrl_.size()) + " numbers for " +
                                  std::to_string(num_actuators) + " actuators; give each its own");

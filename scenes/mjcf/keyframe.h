@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/mjcf/servo_reader.h"
+#include "scenes/mjcf/places.h"
 #include "scenes/xml/attributes.h"
 #include "scenes/xml/leave_out.h"
 
@@ -17,15 +17,18 @@ class Keyframe {
   Keyframe() = default;
   Keyframe(const xml::Element& key, const xml::LeaveOut& leave_out);
 
-  /// Gives the joints, in the order of qpos, their starts, and free bodies their places. Throws
+  /// Gives the joints, in the order of qpos, their starts, and free and mocap bodies their places. Throws
   /// core::InputError if the key has another number of values.
-  void move(const std::vector<JointPlace>& joints, links::Mechanism& mechanism) const;
-  /// Controls of the actuators, in their order. Throws core::InputError if the key has another number.
-  std::vector<double> controls(std::size_t num_actuators) const;
+  void move(const Places& places, links::Mechanism& mechanism) const;
+  /// Controls of the actuators, in their order. `are_copied`: does the model have copies of them, whose order
+  /// is not known? Throws core::InputError then, or if the key has another number.
+  std::vector<double> controls(std::size_t num_actuators, bool are_copied) const;
 
  private:
+  void place_mocap(const std::vector<int>& links, links::Mechanism& mechanism) const;
+
   xml::Attributes attributes_{xml::Element{}};
-  std::vector<double> qpos_, ctrl_;
+  std::vector<double> qpos_, ctrl_, mpos_, mquat_;
 };
 
 /// The `<key>` called `name` in these `<keyframe>` sections; none if the name is empty, with a note on each

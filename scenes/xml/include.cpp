@@ -15,24 +15,16 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view include = "include";
 
-/// The name of the included file, in the folder of `file`.
-std::string included_by(const Element& element, const std::string& file) {
-  Attributes attributes(element);
-  const fs::path name = fs::path(attributes.text("file")).lexically_normal();
-  attributes.finish();
-  const bool leaves_folder = name.is_absolute() || (!name.empty() && *name.begin() == "..");
-  if (name.empty() || leaves_folder)
-    attributes.fail("file", "an included file lies in the folder of " + core::in_quotes(file) +
-                                " or below it; move it there");
-  return (fs::path(file).parent_path() / name).string();
-}
-
-void collect(const Element& element, const std::string& file, std::vector<std::string>& found) {
+void collect(const Element& element, const std::string& main, std::vector<ModelPart>& found) {
   for (const Element& child : element.children) {
-    if (child.name == include)
-      found.push_back(included_by(child, file));
-    else
-      collect(child, file, found);
+    if (child.name == include) {
+      found.push_back({file_of(child, main), main});
+    } else if (child.name == "model" && child.find("file") != nullptr) {
+      const std::string file = file_of(child, main, {"name", "content_type"});
+      found.push_back({file, file});
+    } else {
+      collect(child, main, found);
+    }
   }
 }
 
@@ -48,7 +40,7 @@ class Including {
         expand(child);
         children.push_back(std::move(child));
       } else if (!leave_out_.drops(include, child.where)) {
-        const std::string file = included_by(child, main_);
+        const std::string file = file_of(child, main_);
         core::require_input(seen_.insert(file).second,
                             child.where + ": " + core::in_quotes(file) +
                                 " is included a second time, or includes itself; include it once");
@@ -77,13 +69,25 @@ class Including {
 
 }  // namespace
 
-std::vector<std::string> included_in(const std::string& text, const std::string& file,
-                                     const std::string& main) {
-  const Element root = parse(text, file);
-  std::vector<std::string> found;
-  const bool is_mjcf = root.name == "mujoco" || file != main;  // an included file's root has any name
-  if (is_mjcf) collect(root, main, found);
+std::vector<ModelPart> files_in(const std::string& text, const ModelPart& part) {
+  const Element root = parse(text, part.file);
+  std::vector<ModelPart> found;
+  const bool is_mjcf = root.name == "mujoco" || part.file != part.main;  // an included root has any name
+  if (is_mjcf) collect(root, part.main, found);
   return found;
+}
+
+std::string file_of(const Element& element, const std::string& main,
+                    std::initializer_list<std::string_view> others) {
+  Attributes attributes(element);
+  const fs::path name = fs::path(attributes.text("file")).lexically_normal();
+  attributes.allow(others);
+  attributes.finish();
+  const bool leaves_folder = name.is_absolute() || (!name.empty() && *name.begin() == "..");
+  if (name.empty() || leaves_folder)
+    attributes.fail("file", "an included file lies in the folder of " + core::in_quotes(main) +
+                                " or below it; move it there");
+  return (fs::path(main).parent_path() / name).string();
 }
 
 void expand_includes(Element& root, const std::string& main, const Texts& texts, const LeaveOut& leave_out) {

@@ -88,6 +88,23 @@ class Models(ProgramTest):
         for word in words:
             self.assertIn(word, lines[0])
 
+    def test_a_run_of_attached_and_replicated_models_goes_on_without_their_files(self):
+        os.mkdir(self.path("parts"))
+        self.write("parts/leg.xml", "<mujoco model='leg'><worldbody><body name='b' pos='0 0 1'><joint name='h' axis='0 1 0'/>"
+                                    "<geom size='.1' pos='.3 0 0'/></body></worldbody></mujoco>")
+        main = self.write("row.xml", "<mujoco><asset><model file='parts/leg.xml'/></asset><worldbody>"
+                                     "<replicate count='3' offset='0 1 0'><attach model='leg' body='b' prefix='leg/'/></replicate>"
+                                     "</worldbody></mujoco>")
+        whole = self.summary(1, "--scene", main, "--frames", 4, "--no-output", "--quiet")
+        self.summary(1, "--scene", main, "--frames", 2, "--quiet", "--output", "run.h5", "--checkpoint", "run.ck.h5")
+        self.assertEqual(list(self.positions("run.h5")), ["row.leg/b0", "row.leg/b1", "row.leg/b2"])
+        os.remove(self.path("parts/leg.xml"))
+        rest = self.summary(2, "--resume", "run.ck.h5", "--frames", 4, "--no-output", "--quiet")
+        self.assertEqual(rest["state_hash"], whole["state_hash"])
+        self.refused(["--scene", main], "parts/leg.xml", "MJCF")
+        endless = "<mujoco><worldbody><replicate count='1000000000'><body/></replicate></worldbody></mujoco>"
+        self.refused(["--scene", self.write("endless.xml", endless)], "endless.xml:1:", "replicate", "1000000 elements")
+
     def test_refusals_end_with_code_2_and_one_message(self):
         self.refused(["--scene", self.write("a.xml", "<mujoco>\n<worldbody>")], "a.xml:2:", "malformed XML")
         self.refused(["--scene", self.write("a.urdf", "<robot name='r'><link nam='a'/></robot>")], "a.urdf:1:", "name")

@@ -397,7 +397,7 @@ TEST(Mjcf, leaves_out_what_moves_nothing) {
 
 TEST(Mjcf, leaves_out_a_mesh_that_nothing_touches) {
   const std::string xml =
-      mujoco(boxed("<freejoint/><geom type='mesh' mesh='m' contype='0' conaffinity='0'/>"));
+      mujoco(boxed("<freejoint/><geom type='mesh' mesh='m' mass='0' contype='0' conaffinity='0'/>"));
   EXPECT_EQ(model_of(xml)->geoms.size(), 1u);
   EXPECT_TRUE(says(notes_of(xml), "mesh"));
 }

@@ -15,6 +15,7 @@ constexpr double close_m = 1e-3;  ///< required of both over a second
 /// Both integrate to first order in the step: with 0.1 ms that leaves less than a millimetre.
 constexpr double small_s = 1e-4;
 
+/// `world` may close the <worldbody> and open it again.
 std::string mjcf(const std::string& world) {
   return "<mujoco><compiler angle='radian' autolimits='true'/><worldbody>" + world + "</worldbody></mujoco>";
 }
@@ -103,6 +104,43 @@ TEST(Mujoco, agrees_on_a_box_that_slides_down_a_slope) {
 TEST(Mujoco, agrees_on_a_box_at_rest) {
   EXPECT_LT(difference("<geom type='plane' size='9 9 1'/><body name='b' pos='0 0 .1'><freejoint/>"
                        "<geom type='box' size='.2 .2 .1'/></body>"),
+            close_m);
+}
+
+/// MuJoCo's equalities as stiff as steps of 0.1 ms allow.
+std::string with_equality(const std::string& bodies, const std::string& equality) {
+  return bodies + "</worldbody><equality>" + equality +
+         " solref='.0004 1' solimp='.9999 .9999 .001'/></equality>" + "<worldbody>";
+}
+
+/// A rod that hangs on the world, and a free one at its end, which do not touch.
+const std::string two_rods =
+    "<body name='a' pos='0 0 1'><joint axis='0 1 0'/>" + rod +
+    "</body><body name='b' pos='.3 .05 1' euler='0 .4 0'><freejoint/>" + rod +
+    "</body></worldbody><contact><exclude body1='a' body2='b'/></contact><worldbody>";
+
+TEST(Mujoco, agrees_on_two_bodies_that_connect_of_which_one_hangs) {
+  EXPECT_LT(difference(with_equality(two_rods, "<connect body1='a' body2='b' anchor='.3 .05 0'")),
+            3 * close_m);
+}
+
+TEST(Mujoco, agrees_on_two_bodies_that_are_welded_of_which_one_hangs) {
+  EXPECT_LT(difference(with_equality(two_rods, "<weld body1='a' body2='b'")), 3 * close_m);
+}
+
+TEST(Mujoco, agrees_on_a_loop_that_closes_at_the_world) {
+  EXPECT_LT(difference(with_equality(hanging_twice("<joint axis='0 1 0'/>"),
+                                     "<connect body1='b' anchor='.3 .05 0'")),
+            3 * close_m);
+}
+
+TEST(Mujoco, agrees_on_flags_a_mocap_body_and_the_mass_of_an_ellipsoid) {
+  const std::string post =
+      "<body name='post' mocap='true' pos='0 0 -.5'><geom type='box' size='1 1 .1'/></body>";
+  EXPECT_LT(difference(post +
+                       hanging("<joint axis='0 1 0' range='-.1 .1'/><geom type='ellipsoid' size='.1 .2 .3' "
+                               "pos='.2 0 0' contype='0' conaffinity='0'/>") +
+                       "</worldbody><option><flag constraint='disable'/></option><worldbody>"),
             close_m);
 }
 

@@ -37,8 +37,10 @@ TEST(Include, puts_what_the_root_holds_in_the_place_of_the_element) {
   EXPECT_EQ(b.children[1].name, "e");
   EXPECT_EQ(b.children[2].where, "robots/foot.xml:1:9");
   EXPECT_EQ(b.children[3].name, "c");
-  EXPECT_EQ(included_in(texts.at("robots/dog.xml"), "robots/dog.xml", "robots/dog.xml"),
-            std::vector<std::string>{"robots/parts/leg.xml"});
+  const auto files = files_in(texts.at("robots/dog.xml"), {"robots/dog.xml", "robots/dog.xml"});
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_EQ(files[0].file, "robots/parts/leg.xml");
+  EXPECT_EQ(files[0].main, "robots/dog.xml");
 }
 
 TEST(Include, stays_in_the_folder_and_ends) {
@@ -55,6 +57,14 @@ TEST(Include, stays_in_the_folder_and_ends) {
       << refusal(with("a.xml"));
   EXPECT_NE(refusal(with("dog.xml")).find("second time"), std::string::npos);
   EXPECT_NE(refusal(with("c.xml")).find("no text of 'robots/c.xml'"), std::string::npos);
+}
+
+TEST(Include, names_the_models_to_attach_whose_own_folder_counts_for_them) {
+  const auto files = files_in("<mujoco><asset><model file='parts/leg.xml'/></asset></mujoco>",
+                              {"robots/dog.xml", "robots/dog.xml"});
+  ASSERT_EQ(files.size(), 1u);
+  EXPECT_EQ(files[0].file, "robots/parts/leg.xml");
+  EXPECT_EQ(files[0].main, "robots/parts/leg.xml");
 }
 
 TEST(Include, can_be_left_out) {
