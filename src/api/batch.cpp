@@ -67,6 +67,20 @@ void Batch::set_motor_velocities(std::span<const double> velocities) {
   translated([&] { worlds_->set_motor_velocities(velocities); });
 }
 
+std::span<const JointAxis> Batch::joint_axes() const { return worlds_->layout().joint_axes(); }
+
+const BatchJoints& Batch::joints() {
+  return translated([&]() -> const BatchJoints& { return worlds_->joints(); });
+}
+
+void Batch::set_forces(std::span<const double> forces, std::span<const double> torques) {
+  translated([&] { worlds_->set_forces(forces, torques); });
+}
+
+void Batch::set_efforts(std::span<const double> efforts) {
+  translated([&] { worlds_->set_efforts(efforts); });
+}
+
 std::vector<std::string> Batch::observable_names() const { return Worlds::observable_names(); }
 
 std::vector<double> Batch::observable(std::string_view name) const {

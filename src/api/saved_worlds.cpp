@@ -13,7 +13,7 @@ namespace pbmpi::api {
 namespace {
 
 /// The number at the end is raised when the layout changes.
-constexpr std::string_view magic = "pbmpi worlds 2\n";
+constexpr std::string_view magic = "pbmpi worlds 3\n";
 
 class Writer {
  public:
@@ -85,6 +85,8 @@ void write(const SavedWorld& world, Writer& writer) {
     writer.text(value);
   }
   writer.numbers(world.aims);
+  writer.numbers(world.loads);
+  writer.numbers(world.efforts);
   writer.numbers(mpi::pack(world.state));
 }
 
@@ -98,6 +100,8 @@ SavedWorld read_world(Reader& reader) {
     world.from.parameters.emplace(std::move(key), reader.text());
   }
   world.aims = reader.numbers();
+  world.loads = reader.numbers();
+  world.efforts = reader.numbers();
   world.state = mpi::unpack(reader.numbers());
   return world;
 }

@@ -24,7 +24,9 @@ struct SavedWorld {
   int id = 0;
   std::int64_t step = 0;
   WorldSeed from;
-  std::vector<double> aims;  ///< [num_motors] velocities at which motors aim; NaN: the scene's own
+  std::vector<double> aims;     ///< [num_motors] velocities at which motors aim; NaN: the scene's own
+  std::vector<double> loads;    ///< [num_bodies][6] force [N] and torque [N m] from outside; empty: none
+  std::vector<double> efforts;  ///< [num_joint_axes] [N m] or [N]; empty: none
   model::State state;
 };
 

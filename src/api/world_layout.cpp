@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "model/joint_traits.h"
 
 namespace pbmpi::api {
 namespace {
@@ -31,11 +32,15 @@ void require_names(int world, const std::vector<std::string>& theirs, const std:
                                                         std::to_string(ours.size()) + end);
 }
 
-std::vector<std::string> names_of(std::span<const Motor> motors) {
+template <class Axis>
+std::vector<std::string> names_of(const std::vector<Axis>& axes) {
   std::vector<std::string> names;
-  for (const Motor& motor : motors) names.push_back(motor.name);
+  names.reserve(axes.size());
+  for (const Axis& axis : axes) names.push_back(axis.name);
   return names;
 }
+
+std::string name_of(const model::Joint& joint, int axis) { return joint.name + (axis == 0 ? "" : "/2"); }
 
 }  // namespace
 
@@ -45,10 +50,13 @@ WorldLayout::WorldLayout(const model::Model& model) {
     const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
     for (const int axis : {0, 1}) {
       if (!has_motor(model, joint, axis)) continue;
-      motors_.push_back(
-          {held.name + (axis == 0 ? "" : "/2"), held.motors[static_cast<std::size_t>(axis)].max_force});
+      motors_.push_back({name_of(held, axis), held.motors[static_cast<std::size_t>(axis)].max_force});
       axes_.push_back({joint, axis});
     }
+  }
+  for (const model::JointAxis& at : model::axes_of(model)) {
+    const model::Joint& joint = model.joints[static_cast<std::size_t>(at.joint)];
+    joint_axes_.push_back({name_of(joint, at.axis), model::traits_of(joint.kind).slides});
   }
 }
 
@@ -56,6 +64,7 @@ void WorldLayout::require_same(int world, const model::Model& model) const {
   const WorldLayout other(model);
   require_names(world, other.body_names_, body_names_, "bodies");
   require_names(world, names_of(other.motors_), names_of(motors_), "motors");
+  require_names(world, names_of(other.joint_axes_), names_of(joint_axes_), "joints");
   core::require_input(other.axes_ == axes_, "world " + std::to_string(world) +
                                                 " has its motors on other joints than world 0; make a batch "
                                                 "for each kind of world");

@@ -1,21 +1,14 @@
-/// What all worlds of a batch have in common: their bodies and motors.
+/// What all worlds of a batch have in common: their bodies, motors and joints.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
-#include "model/model.h"
+#include "model/joint_coordinates.h"
 #include "pbmpi/batch.h"
 
 namespace pbmpi::api {
-
-/// An axis of a joint.
-struct Axis {
-  int joint = 0, axis = 0;
-
-  bool operator==(const Axis&) const = default;
-};
 
 class WorldLayout {
  public:
@@ -27,15 +20,18 @@ class WorldLayout {
   std::span<const std::string> body_names() const { return body_names_; }
   std::span<const Motor> motors() const { return motors_; }
   /// [num_motors] the axis that each motor drives.
-  std::span<const Axis> axes() const { return axes_; }
+  std::span<const model::JointAxis> axes() const { return axes_; }
+  std::span<const JointAxis> joint_axes() const { return joint_axes_; }
 
-  /// Throws core::InputError, naming the world and what differs, unless it has the same bodies and motors.
+  /// Throws core::InputError, naming the world and what differs, unless it has the same bodies, motors and
+  /// joints.
   void require_same(int world, const model::Model& model) const;
 
  private:
   std::vector<std::string> body_names_;
   std::vector<Motor> motors_;
-  std::vector<Axis> axes_;
+  std::vector<model::JointAxis> axes_;
+  std::vector<JointAxis> joint_axes_;
 };
 
 }  // namespace pbmpi::api

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <string>
 #include <type_traits>
@@ -13,6 +14,8 @@
 #include "core/text.h"
 #include "effects/sleepers.h"
 #include "engines/stepper_factory.h"
+#include "model/joint_traits.h"
+#include "model/mechanics.h"
 #include "mpi/balance/partition.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/frame/frame_driver.h"
@@ -41,6 +44,40 @@ std::vector<int> own_worlds(const mpi::Communicator& comm, int num_worlds) {
 /// The parameters with which world `world` begins.
 Parameters parameters_of(const BatchOptions& options, int world) {
   return options.parameters.empty() ? Parameters{} : options.parameters[static_cast<std::size_t>(world)];
+}
+
+/// Throws unless there are as many numbers as the lengths say, or none, and all are finite.
+void require_numbers(std::span<const double> values, const std::string& name,
+                     std::initializer_list<std::size_t> lengths) {
+  std::size_t count = 1;
+  std::string shape;
+  for (const std::size_t length : lengths) {
+    count *= length;
+    shape += "[" + std::to_string(length) + "]";
+  }
+  core::require_input(values.empty() || values.size() == count,
+                      name + " has " + std::to_string(values.size()) + " numbers, and " + shape + " are " +
+                          std::to_string(count) + "; give each its own, or none");
+  core::require_input(std::ranges::all_of(values, [](double value) { return std::isfinite(value); }),
+                      name + " has a number that is not finite; give finite ones");
+}
+
+/// Forces and torques one after the other, and back.
+std::vector<double> numbers_of(const std::vector<stepping::BodyLoad>& loads) {
+  std::vector<double> numbers;
+  numbers.reserve(6 * loads.size());
+  for (const stepping::BodyLoad& load : loads) {
+    numbers.insert(numbers.end(), load.force.begin(), load.force.end());
+    numbers.insert(numbers.end(), load.torque.begin(), load.torque.end());
+  }
+  return numbers;
+}
+
+std::vector<stepping::BodyLoad> loads_of(const std::vector<double>& numbers) {
+  std::vector<stepping::BodyLoad> loads(numbers.size() / 6);
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    loads[i] = {model::Vec3(numbers.data() + 6 * i), model::Vec3(numbers.data() + 6 * i + 3)};
+  return loads;
 }
 
 void require_mask(std::span<const bool> mask, std::size_t num_worlds) {
@@ -114,8 +151,15 @@ void WorldSet::step(int num_steps) {
   core::require_input(num_steps >= 0,
                       "a batch cannot do " + std::to_string(num_steps) + " steps; ask for 0 or more");
   if (num_steps == 0 || ids_.empty()) return;
-  arrays_are_old_ = true;
-  steppers_.advance(num_steps);
+  make_old();
+  if (has_efforts()) {
+    for (int step = 0; step < num_steps; ++step) {
+      for (std::size_t i = 0; i < num_worlds(); ++i) push(i);
+      steppers_.advance(1);
+    }
+  } else {
+    steppers_.advance(num_steps);
+  }
   for (std::int64_t& step : steps_) step += num_steps;
   for (World& world : worlds_) world.measured = true;
 }
@@ -141,7 +185,7 @@ void WorldSet::set_state(const BatchState& state, std::span<const bool> mask) {
     steppers_.of(ids_[index]).set_state(ids_[index], wanted, steps_[index]);
     worlds_[index].measured = false;
   }
-  arrays_are_old_ = true;
+  make_old();
 }
 
 void WorldSet::reset(std::span<const bool> mask, std::uint64_t seed, std::span<const Parameters> parameters) {
@@ -166,11 +210,11 @@ void WorldSet::reset(std::span<const bool> mask, std::uint64_t seed, std::span<c
     steps_[index] = 0;
     worlds_[index] = std::move(world);
   }
-  arrays_are_old_ = true;
+  make_old();
 }
 
 void WorldSet::aim(std::size_t index, std::size_t motor, double velocity) {
-  const Axis& axis = layout_.axes()[motor];
+  const model::JointAxis& axis = layout_.axes()[motor];
   steppers_.of(ids_[index]).set_motor_velocity(ids_[index], axis.joint, axis.axis, velocity);
   worlds_[index].aims.velocity[motor] = velocity;
   worlds_[index].aims.since[motor] = steps_[index];
@@ -190,8 +234,106 @@ void WorldSet::set_motor_velocities(std::span<const double> velocities) {
   }
 }
 
+const BatchJoints& WorldSet::joints() {
+  if (!std::exchange(joints_are_old_, false)) return joints_;
+  const std::size_t num_axes = layout_.joint_axes().size();
+  joints_.position.resize(num_worlds() * num_axes);
+  joints_.velocity.resize(num_worlds() * num_axes);
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    World& world = worlds_[i];
+    if (!world.coordinates) world.coordinates = std::make_shared<model::JointCoordinates>(*world.model);
+    const model::State& state = state_of(i);
+    world.coordinates->measure(state, std::span(joints_.position).subspan(i * num_axes, num_axes));
+    for (std::size_t k = 0; k < num_axes; ++k) {
+      const auto [joint, axis] = world.coordinates->axes()[k];
+      joints_.velocity[i * num_axes + k] =
+          model::axis_speed(state, world.model->joints[static_cast<std::size_t>(joint)], axis);
+    }
+  }
+  return joints_;
+}
+
+void WorldSet::require_loads() const {
+  core::require_input(recipe_.settings(0).kind == stepping::StepperKind::sor,
+                      "only the stepper sor takes forces and efforts from outside; make the batch with it");
+}
+
+void WorldSet::set_forces(std::span<const double> forces, std::span<const double> torques) {
+  require_loads();
+  const auto num_bodies = static_cast<std::size_t>(layout_.num_bodies());
+  const auto require = [&](std::span<const double> values, const std::string& name) {
+    require_numbers(values, name, {num_worlds(), num_bodies, 3});
+  };
+  require(forces, "forces");
+  require(torques, "torques");
+  const auto vector_at = [](std::span<const double> values, std::size_t at) {
+    return values.empty() ? model::Vec3(model::Vec3::Zero())
+                          : model::Vec3(values[3 * at], values[3 * at + 1], values[3 * at + 2]);
+  };
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    std::vector<stepping::BodyLoad>& loads = worlds_[i].loads;
+    loads.resize(num_bodies);
+    for (std::size_t body = 0; body < num_bodies; ++body)
+      loads[body] = {vector_at(forces, i * num_bodies + body), vector_at(torques, i * num_bodies + body)};
+    push(i);
+  }
+}
+
+void WorldSet::set_efforts(std::span<const double> efforts) {
+  require_loads();
+  const std::size_t num_axes = layout_.joint_axes().size();
+  require_numbers(efforts, "efforts", {num_worlds(), num_axes});
+  for (std::size_t i = 0; i < num_worlds(); ++i) {
+    const auto own = efforts.empty() ? efforts : efforts.subspan(i * num_axes, num_axes);
+    worlds_[i].efforts.assign(own.begin(), own.end());
+    push(i);
+  }
+}
+
+bool WorldSet::has_efforts() const {
+  return std::ranges::any_of(worlds_, [](const World& world) {
+    return std::ranges::any_of(world.efforts, [](double effort) { return effort != 0; });
+  });
+}
+
+/// A slider's bodies push each other midway between their centres.
+std::vector<stepping::BodyLoad> WorldSet::loads_now(std::size_t index) const {
+  const World& world = worlds_[index];
+  const model::State& state = state_of(index);
+  std::vector<stepping::BodyLoad> loads = world.loads;
+  loads.resize(static_cast<std::size_t>(layout_.num_bodies()));
+  const std::vector<model::JointAxis> axes =
+      world.efforts.empty() ? std::vector<model::JointAxis>{} : model::axes_of(*world.model);
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const auto joint_index = static_cast<std::size_t>(axes[k].joint);
+    if (world.efforts[k] == 0 || state.is_broken(joint_index)) continue;
+    const model::Joint& joint = world.model->joints[joint_index];
+    const model::Vec3 effort = world.efforts[k] * model::axis_direction(state, joint, axes[k].axis);
+    const auto a = static_cast<std::size_t>(joint.body_a), b = static_cast<std::size_t>(joint.body_b);
+    const bool has_b = joint.body_b != model::no_body;
+    if (model::traits_of(joint.kind).slides) {
+      const model::Vec3 arm =
+          has_b ? model::Vec3((state.position[b] - state.position[a]) / 2) : model::Vec3(model::Vec3::Zero());
+      loads[a].force += effort;
+      loads[a].torque += arm.cross(effort);
+      if (has_b) loads[b].force -= effort;
+      if (has_b) loads[b].torque += arm.cross(effort);
+    } else {
+      loads[a].torque += effort;
+      if (has_b) loads[b].torque -= effort;
+    }
+  }
+  return loads;
+}
+
+void WorldSet::push(std::size_t index) {
+  const std::vector<stepping::BodyLoad> loads = loads_now(index);
+  for (std::size_t body = 0; body < loads.size(); ++body)
+    steppers_.of(ids_[index]).set_load(ids_[index], static_cast<int>(body), loads[body]);
+}
+
 double WorldSet::aim_now(std::size_t index, std::size_t motor) const {
-  const Axis& axis = layout_.axes()[motor];
+  const model::JointAxis& axis = layout_.axes()[motor];
   const Aims& aims = worlds_[index].aims;
   if (std::isnan(aims.velocity[motor])) return unaimed;
   const auto& events = worlds_[index].model->events;
@@ -248,7 +390,8 @@ std::vector<std::byte> WorldSet::save() const {
     std::vector<double> aims;
     for (std::size_t motor = 0; motor < worlds_[i].aims.velocity.size(); ++motor)
       aims.push_back(aim_now(i, motor));
-    saved.push_back({ids_[i], steps_[i], worlds_[i].from, std::move(aims), state_of(i)});
+    saved.push_back({ids_[i], steps_[i], worlds_[i].from, std::move(aims), numbers_of(worlds_[i].loads),
+                     worlds_[i].efforts, state_of(i)});
   }
   return write_worlds(saved_from(), saved);
 }
@@ -257,6 +400,12 @@ void WorldSet::require_fit(std::size_t index, const SavedWorld& saved, const Wor
   const std::string name = "saved world " + std::to_string(saved.id);
   core::require_input(saved.step >= 0 && std::ssize(saved.aims) == layout_.num_motors(),
                       name + " has not the steps or motors of this scene; the worlds are damaged");
+  const auto fits = [](const std::vector<double>& values, std::size_t length) {
+    return values.empty() || values.size() == length;
+  };
+  core::require_input(fits(saved.loads, 6 * static_cast<std::size_t>(layout_.num_bodies())) &&
+                          fits(saved.efforts, layout_.joint_axes().size()),
+                      name + " has not the bodies or joints of this scene; the worlds are damaged");
   core::require_input(saved.id == ids_[index], name + " is in the place of this rank's world " +
                                                    std::to_string(ids_[index]) +
                                                    "; load on as many ranks, of as many worlds, as saved");
@@ -283,7 +432,7 @@ void WorldSet::load(std::span<const std::byte> bytes) {
   // From here on nothing throws unless memory runs out.
   steppers_ = std::move(steppers);
   worlds_ = std::move(worlds);
-  arrays_are_old_ = true;
+  make_old();
   for (std::size_t i = 0; i < saved.size(); ++i) {
     steps_[i] = saved[i].step;
     bool has_aims = false;
@@ -292,8 +441,12 @@ void WorldSet::load(std::span<const std::byte> bytes) {
       aim(i, motor, saved[i].aims[motor]);
       has_aims = true;
     }
-    // Aiming a motor wakes the bodies that it drives, which may have slept with that aim.
-    if (has_aims) steppers_.of(ids_[i]).set_state(ids_[i], saved[i].state, saved[i].step);
+    worlds_[i].loads = loads_of(saved[i].loads);
+    worlds_[i].efforts = saved[i].efforts;
+    const bool has_loads = !saved[i].loads.empty() || !saved[i].efforts.empty();
+    if (has_loads) push(i);
+    // Aiming a motor, or a load, wakes the bodies that it drives, which may have slept with it.
+    if (has_aims || has_loads) steppers_.of(ids_[i]).set_state(ids_[i], saved[i].state, saved[i].step);
   }
 }
 

@@ -35,6 +35,9 @@ class WorldSet {
   void set_state(const BatchState& state, std::span<const bool> mask);
   void reset(std::span<const bool> mask, std::uint64_t seed, std::span<const Parameters> parameters);
   void set_motor_velocities(std::span<const double> velocities);
+  const BatchJoints& joints();
+  void set_forces(std::span<const double> forces, std::span<const double> torques);
+  void set_efforts(std::span<const double> efforts);
   static std::vector<std::string> observable_names();
   std::vector<double> observable(std::string_view name) const;
   std::vector<std::byte> save() const;
@@ -52,7 +55,10 @@ class WorldSet {
     WorldSeed from;
     std::shared_ptr<const model::Model> model;
     Aims aims;
-    bool measured = false;  ///< has it stepped since its state was last set?
+    bool measured = false;                       ///< has it stepped since its state was last set?
+    std::vector<stepping::BodyLoad> loads = {};  ///< [num_bodies] set from outside; empty: none
+    std::vector<double> efforts = {};            ///< [num_joint_axes]; empty: none
+    std::shared_ptr<const model::JointCoordinates> coordinates = nullptr;  ///< null until they are asked for
   };
 
   std::size_t num_worlds() const { return ids_.size(); }
@@ -68,6 +74,12 @@ class WorldSet {
   /// The velocity that a motor still aims at: an event may have ended it.
   double aim_now(std::size_t index, std::size_t motor) const;
   void aim(std::size_t index, std::size_t motor, double velocity);
+  void require_loads() const;
+  /// The loads of the world's bodies for the next step, with what the efforts of its joints come to.
+  std::vector<stepping::BodyLoad> loads_now(std::size_t index) const;
+  void push(std::size_t index);
+  bool has_efforts() const;
+  void make_old() { arrays_are_old_ = joints_are_old_ = true; }
   SavedFrom saved_from() const;
   /// Throws unless `saved` fits the world of this index, built as `world`.
   void require_fit(std::size_t index, const SavedWorld& saved, const World& world) const;
@@ -83,6 +95,8 @@ class WorldSet {
   SeededSteppers steppers_;
   BatchState arrays_;
   bool arrays_are_old_ = true;
+  BatchJoints joints_;
+  bool joints_are_old_ = true;
 };
 
 }  // namespace pbmpi::api

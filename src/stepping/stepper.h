@@ -131,6 +131,13 @@ constexpr int sweeps_of(const StepperSettings& settings) {
 /// [s] Length of a substep.
 constexpr double substep_s(const StepperSettings& settings) { return settings.dt_s / settings.substeps; }
 
+/// What acts on a body besides all that its model has, world frame.
+struct BodyLoad {
+  model::Vec3 force = model::Vec3::Zero();   ///< [N] on the centre of mass
+  model::Vec3 torque = model::Vec3::Zero();  ///< [N m]
+  bool operator==(const BodyLoad&) const = default;
+};
+
 /// Steps the worlds that one rank owns. A world's result depends on nothing but its model, its state, the
 /// step number and the settings: not on the other worlds, nor on the order of the calls.
 class WorldStepper {
@@ -151,6 +158,11 @@ class WorldStepper {
   /// by an event. Not part of the state: whoever puts a world back sets its targets again. Throws
   /// core::InputError where there is no such motor.
   virtual void set_motor_velocity(int world, int joint, int axis, double velocity);
+
+  /// From the next step on the load acts on the body throughout each step, until the next such call, or until
+  /// the world is removed. A sleeping island wakes if it is another load than before. Not part of the state:
+  /// whoever puts a world back sets its loads again. Throws core::InputError if the stepper takes no loads.
+  virtual void set_load(int world, int body, const BodyLoad& load);
 
   /// Steps every world `num_steps` times and refreshes state(), observables() and cost_s(). Adds the seconds
   /// spent to `times`. 0 steps only get ready for the next, after worlds have come, gone or changed.

@@ -187,6 +187,21 @@ class Changes(unittest.TestCase):
         self.batch.step(100)
         self.assertTrue(np.allclose(self.batch.angular_velocity[:, 0, 2], 0.5, rtol=0, atol=0.01))
 
+    def test_efforts_and_forces_drive_what_joint_arrays_show(self):
+        self.assertEqual(self.batch.joint_names, ["shoulder"])
+        self.batch.set_motor_velocities([0])
+        self.batch.set_forces(forces=np.zeros((4, 2, 3)), torques=None)
+        self.batch.set_efforts([60])                # 10 N m more than the motor holds
+        self.batch.step(10)
+        speed, angle = self.batch.joint_velocity, self.batch.joint_position
+        self.assertEqual((speed.shape, speed.flags.writeable), ((4, 1), False))
+        self.assertTrue(np.allclose(speed[:, 0], self.batch.angular_velocity[:, 0, 2]))
+        wanted = 10 / (2 * (1 + 0.01) / 12 + 2 * 0.25) * 0.1
+        self.assertTrue(np.allclose(speed, wanted, rtol=0.1) and (angle > 0).all(), (speed, wanted))
+        self.batch.set_efforts(None)
+        self.batch.step(50)
+        self.assertTrue(np.allclose(self.batch.joint_velocity, 0, atol=0.01))
+
     def test_it_says_what_it_is(self):
         batch = pbmpi.Batch("arm", 2, scene_text=ARM, seed=9, substeps=4)
         self.assertEqual(repr(batch), "<pbmpi.Batch 'arm' worlds=2 bodies=2 dt=0.01 seed=9, substeps=4>")

@@ -42,6 +42,11 @@ py::array_t<double> view_of(const py::object& self) {
   return PythonBatch::view(self, member);
 }
 
+template <std::vector<double> BatchJoints::*member>
+py::array_t<double> joint_view_of(const py::object& self) {
+  return PythonBatch::joint_view(self, member);
+}
+
 void add_sizes(py::class_<PythonBatch>& batch) {
   batch
       .def_property_readonly(
@@ -79,6 +84,16 @@ void add_sizes(py::class_<PythonBatch>& batch) {
           },
           "[motors] axes that motors drive; the same in all worlds.")
       .def_property_readonly(
+          "joint_names",
+          [](const PythonBatch& of) {
+            std::vector<std::string> names;
+            for (const JointAxis& axis : of.batch().joint_axes()) names.push_back(axis.name);
+            return names;
+          },
+          "[axes] names of joint axes: the joint's, with \"/2\" behind it for a second axis. Ball and fixed "
+          "joints\n"
+          "have none. The same in all worlds.")
+      .def_property_readonly(
           "observable_names", [](const PythonBatch& of) { return of.batch().observable_names(); },
           "What observable() knows: the columns of /observables/world in io/SCHEMA.md.");
 }
@@ -94,6 +109,14 @@ void add_state(py::class_<PythonBatch>& batch) {
                              "[worlds][bodies][3] m/s, world frame. A read-only view, see Batch.")
       .def_property_readonly("angular_velocity", view_of<&BatchState::angular_velocity>,
                              "[worlds][bodies][3] rad/s, world frame. A read-only view, see Batch.")
+      .def_property_readonly(
+          "joint_position", joint_view_of<&BatchJoints::position>,
+          "[worlds][axes] rad, within half a turn, or of a slider m: how far each joint's first body has "
+          "turned "
+          "or\n"
+          "moved against the second since the world's first step. A read-only view, see Batch.")
+      .def_property_readonly("joint_velocity", joint_view_of<&BatchJoints::velocity>,
+                             "[worlds][axes] rad/s, of a slider m/s. A read-only view, see Batch.")
       .def("set_state", &PythonBatch::set_state, "position"_a = py::none(), "orientation"_a = py::none(),
            "velocity"_a = py::none(), "angular_velocity"_a = py::none(), py::kw_only(), "mask"_a = py::none(),
            "Replaces poses and velocities, shaped as the properties are; None: stays as it is. Forces that a "
@@ -123,6 +146,18 @@ void add_calls(py::class_<PythonBatch>& batch) {
            "the next step on; NaN leaves a motor as it is. Holds until the next call, a reset of the world, "
            "or an\n"
            "event of the scene for this motor. ValueError for another shape.")
+      .def(
+          "set_forces", &PythonBatch::set_forces, "forces"_a = py::none(), "torques"_a = py::none(),
+          "[worlds][bodies][3] N on centres of mass, and N m, world frame: they act throughout each step, "
+          "from "
+          "the\n"
+          "next one on, until the next call or a reset of the world; None: none. With the stepper sor only.\n"
+          "ValueError for another shape, stepper, or a number that is not finite.")
+      .def(
+          "set_efforts", &PythonBatch::set_efforts, "efforts"_a,
+          "[worlds][axes], or [axes] for all worlds alike: N m about, or of a slider N along, the axes of "
+          "joint_names,\n"
+          "which turn with their bodies. They act besides motors, likewise; None: none. ValueError likewise.")
       .def("save", &PythonBatch::save,
            "bytes with all that this rank's worlds need to go on, bit for bit, in a batch of the same scene "
            "and\n"

@@ -81,6 +81,14 @@ py::array_t<double> PythonBatch::view(const py::object& self, std::vector<double
   return read_only_view(state.*member, batch.shape_of(member), self);
 }
 
+py::array_t<double> PythonBatch::joint_view(const py::object& self,
+                                            std::vector<double> BatchJoints::*member) {
+  auto& batch = self.cast<PythonBatch&>();
+  const BatchJoints& joints = *alone(batch, [](Batch& of) { return &of.joints(); });
+  const Shape shape{{batch.num_worlds(), std::ssize(batch.batch_.joint_axes())}, "[worlds][axes]"};
+  return read_only_view(joints.*member, shape, self);
+}
+
 void PythonBatch::set_state(const py::object& position, const py::object& orientation,
                             const py::object& velocity, const py::object& angular_velocity,
                             const py::object& mask) {
@@ -113,21 +121,41 @@ py::array_t<std::int64_t> PythonBatch::steps() const {
   return py::array_t<std::int64_t>(num_worlds(), steps.data());
 }
 
-void PythonBatch::set_motor_velocities(const py::object& velocities) {
-  const auto num_motors = static_cast<py::ssize_t>(batch_.motors().size());
-  const Shape row{{num_motors}, "[motors]"};
-  const Shape all{{num_worlds(), num_motors}, "[worlds][motors]"};
-  const auto array = py::array::ensure(velocities);
-  std::vector<double> wanted;
-  if (array && array.ndim() == 1) {
-    const std::vector<double> one = to_numbers(velocities, "velocities", row);
-    for (py::ssize_t world = 0; world < num_worlds(); ++world)
-      wanted.insert(wanted.end(), one.begin(), one.end());
-  } else {
+std::vector<double> PythonBatch::numbers_of_worlds(const py::object& given, const char* name,
+                                                   const char* each, py::ssize_t length) const {
+  const std::string meaning = "[" + std::string(each) + "]";
+  const auto array = py::array::ensure(given);
+  if (!array || array.ndim() != 1) {
     PyErr_Clear();
-    wanted = to_numbers(velocities, "velocities", all);
+    return to_numbers(given, name, {{num_worlds(), length}, "[worlds]" + meaning});
   }
+  const std::vector<double> one = to_numbers(given, name, {{length}, meaning});
+  std::vector<double> numbers;
+  for (py::ssize_t world = 0; world < num_worlds(); ++world)
+    numbers.insert(numbers.end(), one.begin(), one.end());
+  return numbers;
+}
+
+void PythonBatch::set_motor_velocities(const py::object& velocities) {
+  const std::vector<double> wanted =
+      numbers_of_worlds(velocities, "velocities", "motors", std::ssize(batch_.motors()));
   alone(*this, [&](Batch& batch) { batch.set_motor_velocities(wanted); });
+}
+
+void PythonBatch::set_forces(const py::object& forces, const py::object& torques) {
+  const Shape shape{{num_worlds(), batch_.num_bodies(), 3}, "[worlds][bodies][3]"};
+  const auto numbers = [&](const py::object& given, const char* name) {
+    return given.is_none() ? std::vector<double>{} : to_numbers(given, name, shape);
+  };
+  const std::vector<double> wanted = numbers(forces, "forces"), turning = numbers(torques, "torques");
+  alone(*this, [&](Batch& batch) { batch.set_forces(wanted, turning); });
+}
+
+void PythonBatch::set_efforts(const py::object& efforts) {
+  const std::vector<double> wanted =
+      efforts.is_none() ? std::vector<double>{}
+                        : numbers_of_worlds(efforts, "efforts", "axes", std::ssize(batch_.joint_axes()));
+  alone(*this, [&](Batch& batch) { batch.set_efforts(wanted); });
 }
 
 py::array_t<double> PythonBatch::observable(const std::string& name) const {

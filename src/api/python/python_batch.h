@@ -39,6 +39,13 @@ class PythonBatch {
 
   /// [worlds] steps since each world's start.
   pybind11::array_t<std::int64_t> steps() const;
+  /// The member of BatchJoints, likewise.
+  static pybind11::array_t<double> joint_view(const pybind11::object& self,
+                                              std::vector<double> BatchJoints::*member);
+  /// [worlds][bodies][3] each; None: none.
+  void set_forces(const pybind11::object& forces, const pybind11::object& torques);
+  /// [worlds][axes], or [axes] for all worlds alike; None: none.
+  void set_efforts(const pybind11::object& efforts);
   /// [worlds][motors], or [motors] for all worlds alike.
   void set_motor_velocities(const pybind11::object& velocities);
   /// [worlds], or [worlds][3] for a vector.
@@ -55,6 +62,9 @@ class PythonBatch {
   static auto alone(Self& self, Work&& work);
   pybind11::ssize_t num_worlds() const { return batch_.num_local_worlds(); }
   Shape shape_of(std::vector<double> BatchState::*member) const;
+  /// Numbers of shape [worlds][`each`], or of [`each`] for all worlds alike. `each`: "motors".
+  std::vector<double> numbers_of_worlds(const pybind11::object& given, const char* name, const char* each,
+                                        pybind11::ssize_t length) const;
 
   mutable std::mutex mutex_;
   Batch batch_;

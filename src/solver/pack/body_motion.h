@@ -22,6 +22,7 @@ class BodyMotion {
       : linear_damping_(laws.linear_damping), angular_damping_(laws.angular_damping), worlds_(worlds) {}
 
   void apply_gyroscopic_torques(const Batch& batch, Scalar dt, const GyroscopicSlot<V>*& next);
+  /// Gravity and loads.
   void apply_gravity(const Batch& batch, Scalar h);
   /// Expects the bodies to move with their present twists: sets BodyLanes::expected and half_turnings.
   /// `next`: as above, or null where bodies turn without the torque.
@@ -59,6 +60,12 @@ void BodyMotion<T>::apply_gravity(const Batch& batch, Scalar h) {
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
     Twist<V>& twist = worlds_.bodies.twists[slot];
     twist.linear = twist.linear + worlds_.gravity[slot] * T::broadcast(h);
+  }
+  if (worlds_.torque.empty()) return;
+  for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
+    Twist<V>& twist = worlds_.bodies.twists[slot];
+    const Vec3L<V> turning = worlds_.bodies.bodies[slot].inv_inertia * worlds_.torque[slot];
+    twist.angular = twist.angular + turning * T::broadcast(h);
   }
 }
 

@@ -63,6 +63,8 @@ class Pack {
   virtual void set_motor(int world, int joint, int axis, const model::AxisMotor& motor) = 0;
   virtual void set_limit(int world, int joint, int axis, const model::AxisLimit& limit) = 0;
   virtual void launch(int world, const model::Event& event) = 0;
+  /// See WorldStepper::set_load().
+  virtual void set_load(int world, int body, const stepping::BodyLoad& load) = 0;
   /// Makes the joints of a body forget their forces, because it was put where they no longer apply.
   virtual void forget(int world, int body) = 0;
   /// Takes in which joints of a world are broken from now on (State::broken_in): they no longer act, their

@@ -42,6 +42,9 @@ class PackLanes final : public Pack {
     worlds_.set_limit(world, joint, axis, limit);
   }
   void launch(int world, const model::Event& event) override { worlds_.launch(world, event); }
+  void set_load(int world, int body, const stepping::BodyLoad& load) override {
+    worlds_.set_load(world, body, load);
+  }
   void forget(int world, int body) override { worlds_.forget(world, body); }
   void set_broken(int world, std::span<const std::int32_t> broken_in) override {
     if (worlds_.set_broken(world, broken_in) && collider_) collider_->set_broken(world, broken_in);

@@ -54,6 +54,7 @@ class StepLanes {
     if (passes_.damping) motion_.damp(batch, parameters_.substep_s());
   }
   bool relaxes() const { return parameters_.relax > 0; }
+  bool falls() const { return passes_.gravity || !worlds_.torque.empty(); }
   bool remembers() const { return parameters_.warm_start > 0; }
   bool hands_out_forces() const { return remembers() || parameters_.show_forces; }
   void start_step();
@@ -174,7 +175,7 @@ void StepLanes<T>::start_step() {
     worlds_.joints.start_rotors(batch, worlds_.bodies);
     if (!relaxes())
       motion_.apply_gyroscopic_torques(batch, static_cast<Scalar>(parameters_.dt_s), next_turning);
-    if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
+    if (falls()) motion_.apply_gravity(batch, laws_.h());
   });
   look_ahead();
   factor_joints();
@@ -188,7 +189,7 @@ void StepLanes<T>::start_substep() {
   look_ahead();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.start_rotors(batch, worlds_.bodies);
-    if (passes_.gravity) motion_.apply_gravity(batch, laws_.h());
+    if (falls()) motion_.apply_gravity(batch, laws_.h());
     if (reduces) worlds_.joints.carry(batch, T::broadcast(laws_.contacts().warm_start));
   });
   push_carried();

@@ -19,6 +19,7 @@
 #include "solver/pack/gyroscopic_slots.h"
 #include "solver/pack/idle_lanes.h"
 #include "solver/pack/set_lanes.h"
+#include "stepping/stepper.h"
 
 namespace pbmpi::solver {
 
@@ -66,6 +67,7 @@ class WorldLanes {
     set_control(world, joint, axis, limit);
   }
   void launch(int world, const model::Event& event);
+  void set_load(int world, int body, const stepping::BodyLoad& load);
   void forget(int world, int body);
   /// True if more joints are broken than before.
   bool set_broken(int world, std::span<const std::int32_t> broken_in);
@@ -101,7 +103,8 @@ class WorldLanes {
   LanePlaces places;  ///< where each body and joint lies
   BodyLanes<T> bodies;
   JointBatches<T> joints;
-  std::vector<Vec3L<V>> gravity;              ///< [slots] worlds may differ
+  std::vector<Vec3L<V>> gravity;              ///< [slots] with what loads add; worlds may differ
+  std::vector<Vec3L<V>> torque;               ///< [slots] of loads [N m]; empty without any load
   std::vector<GyroscopicSlot<V>> gyroscopic;  ///< in the order of slots; none without the pass
 
  private:
@@ -123,6 +126,7 @@ class WorldLanes {
             number(body.position.z, body.position_low.z)};
   }
   void set_masses(int world, int body);
+  void set_fall(int world, int body, const model::Vec3& force);
   void set_joint(int world, const Articulation& articulation, std::size_t index);
   template <class Setting>
   void set_control(int world, int joint, int axis, const Setting& setting);
@@ -209,10 +213,25 @@ void WorldLanes<T>::set_masses(int world, int body) {
   Set::set(lane.inv_mass, at.lane, 1 / source.mass_kg);
   Set::set(lane.inertia_body, at.lane, source.inertia);
   Set::set(lane.inv_inertia_body, at.lane, model::Mat3(source.inertia.inverse()));
-  // Adding -0 changes no number, adding +0 changes -0.
-  const bool falls = !model(world).gravity.isZero(0);
-  Set::set(gravity[at.slot], at.lane,
-           falls ? model(world).gravity : model::Vec3(model::Vec3::Constant(-0.0)));
+  set_fall(world, body, model::Vec3::Zero());
+}
+
+/// Adding -0 changes no number, adding +0 changes -0.
+template <class T>
+void WorldLanes<T>::set_fall(int world, int body, const model::Vec3& force) {
+  const LanePlace at = places.body(world, body);
+  model::Vec3 fall = model(world).gravity;
+  if (!force.isZero(0)) fall += force / model(world).bodies[body].mass_kg;
+  Set::set(gravity[at.slot], at.lane, fall.isZero(0) ? model::Vec3(model::Vec3::Constant(-0.0)) : fall);
+}
+
+template <class T>
+void WorldLanes<T>::set_load(int world, int body, const stepping::BodyLoad& load) {
+  set_fall(world, body, load.force);
+  const V zero = T::broadcast(0);
+  if (torque.empty()) torque.assign(gravity.size(), {zero, zero, zero});
+  const LanePlace at = places.body(world, body);
+  Set::set(torque[at.slot], at.lane, load.torque);
 }
 
 /// Makes rows for limits and motors that are demanded though nothing calls for them: their limits are out of

@@ -34,6 +34,7 @@ class SorStepper final : public stepping::WorldStepper {
   }
   void set_state(int world, const model::State& state, std::int64_t step) override;
   void set_motor_velocity(int world, int joint, int axis, double velocity) override;
+  void set_load(int world, int body, const stepping::BodyLoad& load) override;
   const model::State& state(int world) const override { return worlds_.at(world)->state(); }
   const model::Model& model(int world) const override { return worlds_.at(world)->model(); }
   const stepping::Observables& observables(int world) const override {
@@ -74,6 +75,13 @@ void SorStepper::set_motor_velocity(int world, int joint, int axis, double veloc
   const auto place = groups_.place(aimed);
   Pack* pack = place.group == nullptr ? nullptr : &place.group->pack();
   aimed.aim(joint, axis, velocity, pack, place.index);
+}
+
+void SorStepper::set_load(int world, int body, const stepping::BodyLoad& load) {
+  SorWorld& pushed = *worlds_.at(world);
+  const auto place = groups_.place(pushed);
+  Pack* pack = place.group == nullptr ? nullptr : &place.group->pack();
+  pushed.push(body, load, pack, place.index);
 }
 
 /// Each group takes all steps before the next group starts, so that its data stays in the cache.

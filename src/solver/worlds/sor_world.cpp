@@ -112,15 +112,28 @@ void SorWorld::enter(Pack& pack, int index) const {
   apply_settings_before(*model_, step_, index, pack);
   for (const stepping::MotorTargets::Target& target : targets_.all())
     pack.set_motor(index, target.joint, target.axis, target.motor);
+  for (const auto& [body, load] : loads_) pack.set_load(index, body, load);
 }
 
 void SorWorld::aim(int joint, int axis, double velocity, Pack* pack, int index) {
   const auto* target = targets_.set(*model_, step_, joint, axis, velocity);
   if (target == nullptr) return;
   if (pack != nullptr) pack->set_motor(index, joint, axis, target->motor);
-  if (rules_.sleepers() == nullptr) return;
   const model::Joint& driven = model_->joints[static_cast<std::size_t>(joint)];
-  const bool woke = rules_.sleepers()->wake_islands_of(std::array{driven.body_a, driven.body_b});
+  wake(std::array{driven.body_a, driven.body_b}, pack, index);
+}
+
+void SorWorld::push(int body, const stepping::BodyLoad& load, Pack* pack, int index) {
+  const auto known = loads_.find(body);
+  if (load == (known == loads_.end() ? stepping::BodyLoad{} : known->second)) return;
+  loads_[body] = load;
+  if (pack != nullptr) pack->set_load(index, body, load);
+  wake(std::array{body}, pack, index);
+}
+
+void SorWorld::wake(std::span<const int> bodies, Pack* pack, int index) {
+  if (rules_.sleepers() == nullptr) return;
+  const bool woke = rules_.sleepers()->wake_islands_of(bodies);
   if (woke && pack != nullptr) show_awake(*pack, index);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,12 +43,14 @@ class SorWorld {
   void set_state(const model::State& state, std::int64_t step);
   /// WorldStepper::set_motor_velocity(). `pack`: null if none holds the world.
   void aim(int joint, int axis, double velocity, Pack* pack, int index);
+  /// WorldStepper::set_load(), likewise.
+  void push(int body, const stepping::BodyLoad& load, Pack* pack, int index);
 
   /// Is a joint that is broken now unbroken in `state`? A pack cannot mend joints.
   bool mends(const model::State& state) const;
   /// Puts the state into the pack.
   void load(Pack& pack, int index) const;
-  /// Puts the state, with the joint settings of this step and the targets of motors, into the pack.
+  /// Puts the state, with the joint settings of this step, the targets of motors and loads, into the pack.
   void enter(Pack& pack, int index) const;
 
   // A step, in the order of effects::StepRules.
@@ -89,6 +92,8 @@ class SorWorld {
   class InPack;
   void forget(int body) { model::forget(*model_, body, state_.memory); }
   void show_awake(Pack& pack, int index) const;
+  /// Wakes the islands of these bodies.
+  void wake(std::span<const int> bodies, Pack* pack, int index);
   void recall(const Pack& pack, int index, std::span<const model::Contact> contacts);
   void sort_islands(const Pack& pack, int index, std::span<const model::Contact> contacts);
   void show_contacts(const Pack& pack, int index, std::span<const model::Contact> contacts);
@@ -101,6 +106,7 @@ class SorWorld {
   model::State state_;
   std::int64_t step_;
   stepping::MotorTargets targets_;
+  std::map<int, stepping::BodyLoad> loads_;  ///< by body; others have none
   effects::StepRules rules_;
   std::unique_ptr<model::NarrowPhase> narrow_phase_;
   bool remembers_;       ///< forces, from step to step

@@ -53,6 +53,19 @@ struct BatchState {
   std::vector<double> angular_velocity;  ///< k = 3 [rad/s]
 };
 
+/// An axis of a joint.
+struct JointAxis {
+  std::string name;     ///< the joint's, followed by "/2" for a second axis
+  bool slides = false;  ///< its coordinate is a length [m] and its effort a force [N], not [rad] and [N m]
+};
+
+/// Where the joints of this rank's worlds are: [num_local_worlds][num_joint_axes], in the order of
+/// joint_axes(). Positive is the joint's first body turning or moving along the axis against the second.
+struct BatchJoints {
+  std::vector<double> position;  ///< [rad], within half a turn, or [m]: since the world's first step
+  std::vector<double> velocity;  ///< [rad/s] or [m/s]
+};
+
 /// An axis that a motor drives.
 struct Motor {
   std::string name;      ///< the joint's, followed by "/2" for a second axis
@@ -107,6 +120,20 @@ class PBMPI_EXPORT Batch {
   /// until the next call, a reset of the world, or an event of the scene for this motor. NaN leaves a motor
   /// as it is.
   void set_motor_velocities(std::span<const double> velocities);
+
+  /// The axes of all joints; the same in all worlds. Ball and fixed joints have none.
+  std::span<const JointAxis> joint_axes() const;
+  /// Joints as they are now, computed from state() once after a step; broken ones, too. The reference and its
+  /// arrays' addresses stay valid until the batch ends.
+  const BatchJoints& joints();
+  /// Forces on centres of mass [N] and torques [N m], [num_local_worlds][num_bodies][3] each, world frame:
+  /// they act from the next step on, throughout each step, until the next call or a reset of the world.
+  /// Empty: none. With the stepper "sor" only.
+  void set_forces(std::span<const double> forces, std::span<const double> torques = {});
+  /// [num_local_worlds][num_joint_axes] torques [N m], or forces [N], between the bodies of each joint about
+  /// or along its axis, likewise, besides its motor; the axes turn with their bodies from step to step.
+  /// Broken joints have none. Empty: none.
+  void set_efforts(std::span<const double> efforts);
 
   /// The names of a world's observables, e.g. "energy", "contacts", "joint_gap" (io/SCHEMA.md,
   /// /observables/world).
