@@ -67,6 +67,10 @@ void Batch::set_motor_velocities(std::span<const double> velocities) {
   translated([&] { worlds_->set_motor_velocities(velocities); });
 }
 
+void Batch::set_targets(std::span<const double> positions) {
+  translated([&] { worlds_->set_targets(positions); });
+}
+
 std::span<const JointAxis> Batch::joint_axes() const { return worlds_->layout().joint_axes(); }
 
 const BatchJoints& Batch::joints() {

@@ -50,7 +50,8 @@ WorldLayout::WorldLayout(const model::Model& model) {
     const model::Joint& held = model.joints[static_cast<std::size_t>(joint)];
     for (const int axis : {0, 1}) {
       if (!has_motor(model, joint, axis)) continue;
-      motors_.push_back({name_of(held, axis), held.motors[static_cast<std::size_t>(axis)].max_force});
+      const model::AxisMotor& motor = held.motors[static_cast<std::size_t>(axis)];
+      motors_.push_back({name_of(held, axis), motor.max_force, motor.hold_rate});
       axes_.push_back({joint, axis});
     }
   }

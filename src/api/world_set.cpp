@@ -12,6 +12,7 @@
 #include "api/version.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "effects/motors.h"
 #include "effects/sleepers.h"
 #include "engines/stepper_factory.h"
 #include "model/joint_traits.h"
@@ -220,18 +221,39 @@ void WorldSet::aim(std::size_t index, std::size_t motor, double velocity) {
   worlds_[index].aims.since[motor] = steps_[index];
 }
 
-void WorldSet::set_motor_velocities(std::span<const double> velocities) {
+void WorldSet::aim_all(std::span<const double> velocities, const std::string& what) {
   const auto num_motors = static_cast<std::size_t>(layout_.num_motors());
   core::require_input(velocities.size() == num_worlds() * num_motors,
-                      "there are " + std::to_string(velocities.size()) + " velocities, and [" +
+                      "there are " + std::to_string(velocities.size()) + " " + what + ", and [" +
                           std::to_string(num_worlds()) + "][" + std::to_string(num_motors) + "] motors");
   core::require_input(
       std::none_of(velocities.begin(), velocities.end(), [](double v) { return std::isinf(v); }),
-      "a motor cannot aim at an infinite velocity; give finite ones, or NaN for the motors "
-      "that stay as they are");
+      "a motor cannot aim at infinite " + what +
+          "; give finite ones, or NaN for the motors that stay as they are");
   for (std::size_t i = 0; i < velocities.size(); ++i) {
     if (!std::isnan(velocities[i])) aim(i / num_motors, i % num_motors, velocities[i]);
   }
+}
+
+void WorldSet::set_motor_velocities(std::span<const double> velocities) { aim_all(velocities, "velocities"); }
+
+void WorldSet::set_targets(std::span<const double> positions) {
+  const auto num_motors = static_cast<std::size_t>(layout_.num_motors());
+  std::vector<double> velocities(positions.begin(), positions.end());
+  for (std::size_t i = 0; i < std::min(velocities.size(), num_worlds() * num_motors); ++i) {
+    if (!std::isnan(velocities[i])) velocities[i] *= hold_rate(i / num_motors, i % num_motors);
+  }
+  aim_all(velocities, "targets");
+}
+
+double WorldSet::hold_rate(std::size_t index, std::size_t motor) const {
+  const model::JointAxis& at = layout_.axes()[motor];
+  const double rate =
+      effects::motor_before(*worlds_[index].model, steps_[index], at.joint, at.axis).hold_rate;
+  core::require_input(rate > 0, "the motor " + core::in_quotes(layout_.motors()[motor].name) +
+                                    " holds no pose; give it a hold_rate (a position servo of MJCF has one), "
+                                    "or NaN as its target");
+  return std::min(rate, 1 / dt_s());  // as a step uses it
 }
 
 const BatchJoints& WorldSet::joints() {

@@ -35,6 +35,7 @@ class WorldSet {
   void set_state(const BatchState& state, std::span<const bool> mask);
   void reset(std::span<const bool> mask, std::uint64_t seed, std::span<const Parameters> parameters);
   void set_motor_velocities(std::span<const double> velocities);
+  void set_targets(std::span<const double> positions);
   const BatchJoints& joints();
   void set_forces(std::span<const double> forces, std::span<const double> torques);
   void set_efforts(std::span<const double> efforts);
@@ -74,6 +75,10 @@ class WorldSet {
   /// The velocity that a motor still aims at: an event may have ended it.
   double aim_now(std::size_t index, std::size_t motor) const;
   void aim(std::size_t index, std::size_t motor, double velocity);
+  /// Aims all motors whose value is not NaN: [num_worlds][num_motors]. `what`: "velocities".
+  void aim_all(std::span<const double> velocities, const std::string& what);
+  /// The rate at which a motor returns to its target in the next step; throws if it holds no pose.
+  double hold_rate(std::size_t index, std::size_t motor) const;
   void require_loads() const;
   /// The loads of the world's bodies for the next step, with what the efforts of its joints come to.
   std::vector<stepping::BodyLoad> loads_now(std::size_t index) const;

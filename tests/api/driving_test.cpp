@@ -91,6 +91,15 @@ std::vector<double> force_on(Body body, double x, double y, double z) {
   return forces;
 }
 
+std::string refusal(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(Driving, names_the_axes_of_joints) {
   const Batch batch(jointed(1));
   ASSERT_EQ(batch.joint_axes().size(), std::size_t{num_axes});
@@ -196,6 +205,43 @@ TEST(Driving, a_loop_of_position_and_effort_comes_to_rest_at_its_steady_state) {
   EXPECT_NEAR(batch.joints().velocity[shoulder], 0, 1e-3);
 }
 
+/// An arm of MJCF with a position servo, which hangs across gravity, and a joint that only brakes.
+BatchOptions servo(int num_worlds, const std::string& stepper) {
+  BatchOptions options;
+  options.scene = "servo";
+  options.num_worlds = num_worlds;
+  options.settings = {{"stepper", stepper}};
+  options.scene_text =
+      "<mujoco><worldbody><body name='arm' pos='0 0 1'><joint name='shoulder' axis='0 1 0'/>"
+      "<geom type='capsule' fromto='0 0 0 .5 0 0' size='.05'/><body name='hand' pos='.5 0 0'>"
+      "<joint name='wrist' axis='0 0 1' frictionloss='1'/><geom type='capsule' fromto='0 0 0 .2 0 0' "
+      "size='.03'/>"
+      "</body></body></worldbody><actuator><position joint='shoulder' kp='200' kv='20'/></actuator></mujoco>";
+  return options;
+}
+
+TEST(Driving, targets_bring_the_axes_of_servos_where_they_are) {
+  const double as_it_is = std::nan("");
+  for (const char* stepper : {"sor", "quick"}) {
+    Batch batch(servo(2, stepper));
+    ASSERT_EQ(batch.motors().size(), 2u);
+    EXPECT_EQ(batch.motors()[0].hold_rate, 10);
+    EXPECT_EQ(batch.motors()[1].hold_rate, 0);
+    batch.set_targets(std::vector<double>{-0.7, as_it_is, 0.4, as_it_is});
+    const double seconds = 200 * batch.dt_s();
+    batch.step(200);
+    // exp(-rate t) of the way is left.
+    EXPECT_NEAR(batch.joints().position[0], -0.7 * (1 - std::exp(-10 * seconds)), 0.01) << stepper;
+    batch.step(600);
+    EXPECT_NEAR(batch.joints().position[0], -0.7, 2e-3) << stepper;
+    EXPECT_NEAR(batch.joints().position[2], 0.4, 2e-3) << stepper;
+    const std::string refused = refusal([&] { batch.set_targets(std::vector<double>(4, 0)); });
+    EXPECT_NE(refused.find("'servo.wrist' holds no pose"), std::string::npos) << refused;
+    EXPECT_NE(refusal([&] { batch.set_targets(std::vector<double>(3, as_it_is)); }).find("3 targets"),
+              std::string::npos);
+  }
+}
+
 TEST(Driving, goes_on_after_a_load_and_ends_with_a_reset) {
   Batch batch(jointed(2)), other(jointed(2));
   std::vector<double> forces(2 * 3 * num_bodies, 0.1), efforts(2 * num_axes, 0.01);
@@ -230,15 +276,6 @@ TEST(Driving, by_nothing_changes_no_bit) {
   pushed.set_efforts(std::vector<double>(num_axes, 0));
   for (Batch* each : {&batch, &pushed}) each->step(30);
   EXPECT_EQ(batch.hash(), pushed.hash());
-}
-
-std::string refusal(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(Driving, refuses_wrong_arrays_and_steppers) {

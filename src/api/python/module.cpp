@@ -31,6 +31,8 @@ void add_motor(py::module_& module) {
   py::class_<Motor>(module, "Motor", "An axis that a motor drives.")
       .def_readonly("name", &Motor::name, "The joint's, with \"/2\" behind it for a second axis.")
       .def_readonly("max_force", &Motor::max_force, "[N m], of a slider [N]: at the start.")
+      .def_readonly("hold_rate", &Motor::hold_rate,
+                    "[1/s] at which it returns to its target, at the start; 0: it holds no pose.")
       .def("__repr__", [](const Motor& motor) {
         return "Motor(name=" + py::repr(py::str(motor.name)).cast<std::string>() +
                ", max_force=" + py::repr(py::float_(motor.max_force)).cast<std::string>() + ")";
@@ -146,6 +148,14 @@ void add_calls(py::class_<PythonBatch>& batch) {
            "the next step on; NaN leaves a motor as it is. Holds until the next call, a reset of the world, "
            "or an\n"
            "event of the scene for this motor. ValueError for another shape.")
+      .def(
+          "set_targets", &PythonBatch::set_targets, "positions"_a,
+          "[worlds][motors], or [motors] for all worlds alike: rad (of a slider m), as joint_position has\n"
+          "them, to which motors with a hold_rate bring their axes, as position servos of MJCF are: they "
+          "aim\n"
+          "at hold_rate x (target - position), with at most their force, until the next call of this or of\n"
+          "set_motor_velocities. NaN leaves a motor as it is. ValueError for another shape, and for a motor\n"
+          "without a hold_rate.")
       .def(
           "set_forces", &PythonBatch::set_forces, "forces"_a = py::none(), "torques"_a = py::none(),
           "[worlds][bodies][3] N on centres of mass, and N m, world frame: they act throughout each step, "

@@ -142,6 +142,12 @@ void PythonBatch::set_motor_velocities(const py::object& velocities) {
   alone(*this, [&](Batch& batch) { batch.set_motor_velocities(wanted); });
 }
 
+void PythonBatch::set_targets(const py::object& positions) {
+  const std::vector<double> wanted =
+      numbers_of_worlds(positions, "positions", "motors", std::ssize(batch_.motors()));
+  alone(*this, [&](Batch& batch) { batch.set_targets(wanted); });
+}
+
 void PythonBatch::set_forces(const py::object& forces, const py::object& torques) {
   const Shape shape{{num_worlds(), batch_.num_bodies(), 3}, "[worlds][bodies][3]"};
   const auto numbers = [&](const py::object& given, const char* name) {

@@ -48,6 +48,7 @@ class PythonBatch {
   void set_efforts(const pybind11::object& efforts);
   /// [worlds][motors], or [motors] for all worlds alike.
   void set_motor_velocities(const pybind11::object& velocities);
+  void set_targets(const pybind11::object& positions);
   /// [worlds], or [worlds][3] for a vector.
   pybind11::array_t<double> observable(const std::string& name) const;
 

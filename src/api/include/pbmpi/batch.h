@@ -70,6 +70,7 @@ struct BatchJoints {
 struct Motor {
   std::string name;      ///< the joint's, followed by "/2" for a second axis
   double max_force = 0;  ///< at the start; [N m], [N] for a slider
+  double hold_rate = 0;  ///< [1/s] at which it returns to its target, at the start; 0: it holds no pose
 };
 
 /// The worlds that this rank owns, out of all worlds of the batch. Calls marked "collective" are made by all
@@ -120,6 +121,11 @@ class PBMPI_EXPORT Batch {
   /// until the next call, a reset of the world, or an event of the scene for this motor. NaN leaves a motor
   /// as it is.
   void set_motor_velocities(std::span<const double> velocities);
+  /// [num_local_worlds][num_motors] positions [rad or m], as BatchJoints has them, to which motors with a
+  /// hold_rate bring their axes, as position servos of MJCF are: from the next step on the motor aims at
+  /// hold_rate x (target - position), with at most its force. Lasts as a velocity does, which it replaces.
+  /// NaN leaves a motor as it is. Throws for another number where a motor has no hold_rate then.
+  void set_targets(std::span<const double> positions);
 
   /// The axes of all joints; the same in all worlds. Ball and fixed joints have none.
   std::span<const JointAxis> joint_axes() const;
