@@ -37,7 +37,7 @@ std::vector<const xml::Element*> Part::sections(std::string_view name) const {
 Attachments::Attachments(const std::string& file, const xml::Texts& texts, const xml::LeaveOut& leave_out)
     : texts_(texts), leave_out_(leave_out) {
   Source& source = source_of(file);
-  parts_.push_back({file, &source.root, &source.context});
+  parts_.push_back({file, &source.root, &source.context, nullptr, ""});
   for (const xml::Element* one : main().sections("option"))
     read_option(*one, leave_out, source.context.option);
 }
@@ -46,14 +46,14 @@ Attached Attachments::attach(const xml::Element& element, const Part& into) {
   Attributes attach(element);
   const std::string file = attach.has("model") ? file_of(attach, into) : into.file;
   Attached attached;
-  attached.prefix = attach.text("prefix");
+  const std::string prefix = attach.text("prefix");
   const bool has_body = attach.has("body"), has_frame = attach.has("frame");
   if (has_body && has_frame)
     attach.fail("frame", "'body' and 'frame' both say what is attached; leave out one");
   if (!attach.has("model") && !has_body && !has_frame)
     attach.fail("it has no 'model', 'body' or 'frame'; name what is to be attached");
   const Source& source = source_of(file);
-  parts_.push_back({file, &source.root, &source.context, true});
+  parts_.push_back({file, &source.root, &source.context, &into, into.prefix + prefix});
   attached.part = &parts_.back();
   const std::vector<const xml::Element*> worlds = attached.part->sections("worldbody");
   core::require_input(!worlds.empty(), attach.where() + ": there is no <worldbody> in " +

@@ -18,7 +18,8 @@ struct Part {
   std::string file;
   const xml::Element* root = nullptr;  ///< `<mujoco>`
   const Context* context = nullptr;
-  bool is_attached = false;
+  const Part* into = nullptr;  ///< the part that attaches it; null: the main one
+  std::string prefix;          ///< of all of its names, with those of the parts around it
 
   /// The elements of that name in the root.
   std::vector<const xml::Element*> sections(std::string_view name) const;
@@ -29,7 +30,6 @@ struct Attached {
   const Part* part = nullptr;
   const xml::Element* element = nullptr;  ///< a body, a frame, or the `<worldbody>`
   std::string childclass;                 ///< of the elements around it
-  std::string prefix;                     ///< of all names
 };
 
 /// Owns the parts of a model, and what its files say.

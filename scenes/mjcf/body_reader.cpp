@@ -24,15 +24,17 @@ constexpr std::array<std::string_view, 2> onlookers_of_bodies = {"camera", "ligh
 struct Scope {
   const Part* part = nullptr;
   std::string childclass;
-  Pose frame;                  ///< of <frame>s, in the frame of the body around them
-  std::string prefix, suffix;  ///< of names
+  Pose frame;          ///< of <frame>s, in the frame of the body around them
+  std::string suffix;  ///< of names
   std::vector<Copy> copies;
   std::vector<const xml::Element*> attaching;  ///< the <attach> elements around, outermost first
 
   const Context& context() const { return *part->context; }
   /// A name of the file as the mechanism has it.
-  std::string named(const std::string& name) const { return name.empty() ? name : prefix + name + suffix; }
-  Named place_of(const std::string& name) const { return {name, part, copies}; }
+  std::string named(const std::string& name) const {
+    return name.empty() ? name : part->prefix + name + suffix;
+  }
+  Named place_of(const std::string& name) const { return {part->prefix + name, suffix, part, copies}; }
 };
 
 constexpr std::size_t most_attached = 50;  // one within another: more would overflow the stack
@@ -64,7 +66,7 @@ class BodyReader {
     link.name = "world";
     link.where = worlds.front()->where;
     mechanism_.links.push_back(std::move(link));
-    places_.bodies.push_back({{"world", nullptr, {}}, 0});
+    places_.bodies.push_back({{"world", "", &attachments_.main(), {}}, 0});
     for (const xml::Element* world : worlds) {
       Attributes(*world, leave_out_).finish();
       read_children(*world, 0, scope);
@@ -170,7 +172,6 @@ class BodyReader {
     Scope scope = around;
     scope.part = attached.part;
     scope.childclass = attached.childclass;
-    scope.prefix = around.prefix + attached.prefix;
     scope.attaching.push_back(&element);
     if (attached.element->name == "body")
       visit(*attached.element, scope);

@@ -21,8 +21,8 @@ class Defaults {
   void read(const xml::Element& element);
 
   /// The defaults that `element` takes from its own class, or else from `childclass` of the bodies around it
-  /// ("": the topmost class). The first attribute of a name counts. `kind`: the element of `<default>` that has
-  /// them, if that is not called as this one. Throws core::InputError for an unknown class.
+  /// ("": the topmost class). The first attribute of a name counts. `kind`: the element of `<default>` that
+  /// has them, if that is not called as this one. Throws core::InputError for an unknown class.
   std::vector<xml::Attribute> of(const xml::Element& element, const std::string& childclass,
                                  std::string_view kind = {}) const;
 

@@ -13,6 +13,12 @@ bool are_together(const Named& a, const Named& b) {
   });
 }
 
+bool is_within(const Part& part, const Part& around) {
+  const Part* at = &part;
+  while (at != nullptr && at != &around) at = at->into;
+  return at != nullptr;
+}
+
 bool has_named(const xml::Element& element, std::string_view kind, std::string_view name) {
   const xml::Attribute* own = element.find("name");
   if (element.name == kind && own != nullptr && own->value == name) return true;

@@ -90,6 +90,17 @@ TEST(Replicate, numbers_copies_with_equal_digits_innermost_first) {
   EXPECT_LT((link(*model, "b-103").pose.position - Vec3(6, 2, 1)).norm(), 1e-12);
 }
 
+TEST(Replicate, stands_as_in_the_example_of_mujocos_reference) {
+  const std::string turn = "1.5707963267948966";
+  const auto model = model_of(mujoco("<replicate count='2' offset='0 1 0' euler='" + turn +
+                                     " 0 0'><replicate count='2' sep='-' offset='1 0 0' euler='0 " + turn +
+                                     " 0'><body name='b'>" + ball + "</body></replicate></replicate>"));
+  const core::Pose& last = link(*model, "b-11").pose;
+  EXPECT_LT((last.position - Vec3(1, 1, 0)).norm(), 1e-12);
+  EXPECT_NEAR(std::abs(last.orientation.to_eigen().dot(Eigen::Quaterniond(.5, .5, .5, .5))), 1, 1e-12);
+  EXPECT_LT((link(*model, "b-10").pose.position - Vec3(1, 0, 0)).norm(), 1e-12);
+}
+
 TEST(Replicate, copies_what_names_copies) {
   const std::string arm =
       "<body name='a'><joint name='h' axis='0 1 0'/><geom name='g' size='.1' pos='1 0 0'/>"
@@ -135,6 +146,23 @@ TEST(Attach, takes_a_part_of_the_model_itself_and_leaves_out_what_names_the_rest
   EXPECT_LT((link(*model, "2b").pose.position - Vec3(6, 0, 1)).norm(), 1e-12);
   EXPECT_EQ(joint_of(*model, "2h").motors[0].max_force, 1);
   EXPECT_EQ(joint_of(*model, "k").motors[0].max_force, 7) << "it is driven once";
+}
+
+TEST(Attach, lets_the_model_name_what_it_attaches_and_single_copies) {
+  const std::string leg =
+      "<mujoco><worldbody><body name='b' pos='0 0 1'><joint name='h'/><geom size='.1' pos='1 0 0'/></body>"
+      "</worldbody></mujoco>";
+  const auto model =
+      model_of(scene_of(mujoco("<attach model='leg' body='b' prefix='l/'/><replicate count='2' offset='3 0 "
+                               "0'><body name='r' pos='0 9 0'>"
+                               "<joint name='k'/><geom size='.1' pos='1 0 "
+                               "0'/></body></replicate></worldbody><actuator><velocity joint='l/h' kv='3'/>"
+                               "<velocity joint='k1' kv='5'/></actuator><worldbody>",
+                               "<asset><model name='leg' file='leg.xml'/></asset>"),
+                        {{"leg.xml", leg}}));
+  EXPECT_EQ(joint_of(*model, "l/h").motors[0].max_force, 3);
+  EXPECT_EQ(joint_of(*model, "k0").motors[0].max_force, 0);
+  EXPECT_EQ(joint_of(*model, "k1").motors[0].max_force, 5);
 }
 
 TEST(Attach, takes_a_whole_world) {
