@@ -117,38 +117,57 @@ void require_checksum(hid_t file, const char* name, std::int64_t (*compute)(hid_
     throw core::RunError(std::string(what) + " changed since it was written");
 }
 
-void check_table(hid_t file, const std::string& path, std::int64_t num_rows) {
+/// The columns of a table and the checksums of their rows, which the dataset `path` lists.
+struct Table {
+  std::vector<RawRows> columns;
+  RawRows checksums;
+};
+
+Table open_table(hid_t file, const std::string& path, std::int64_t num_rows) {
   const auto attributes = attributes_as_text(file, path);
   const auto named = attributes.find("columns");
   if (named == attributes.end()) throw core::RunError(path + " has no attribute columns");
-  std::vector<RawRows> columns;
+  Table table{{}, raw_rows(file, path, num_rows)};
   std::istringstream lines(named->second);
-  std::size_t row_bytes = 1;
-  for (std::string column; std::getline(lines, column);) {
-    columns.push_back(raw_rows(file, column, num_rows));
-    row_bytes += columns.back().row_bytes;
-  }
+  for (std::string column; std::getline(lines, column);)
+    table.columns.push_back(raw_rows(file, column, num_rows));
+  if (table.checksums.row_bytes != sizeof(std::uint64_t))
+    throw core::RunError(path + " is no column of checksums");
+  return table;
+}
+
+/// Calls take(first row, checksums) with the checksums of the table's rows as they are, piece by piece.
+template <class Take>
+void sum_rows(const Table& table, Take&& take) {
   constexpr std::size_t piece_bytes = std::size_t{4} << 20;
+  std::size_t row_bytes = 1;
+  for (const RawRows& column : table.columns) row_bytes += column.row_bytes;
+  const hsize_t num_rows = table.checksums.num_rows;
   const auto piece = static_cast<hsize_t>(std::max<std::size_t>(piece_bytes / row_bytes, 1));
-  const RawRows stored = raw_rows(file, path, num_rows);
-  if (stored.row_bytes != sizeof(std::uint64_t)) throw core::RunError(path + " is no column of checksums");
-  for (hsize_t first = 0; first < static_cast<hsize_t>(num_rows); first += piece) {
-    const hsize_t count = std::min<hsize_t>(piece, static_cast<hsize_t>(num_rows) - first);
+  for (hsize_t first = 0; first < num_rows; first += piece) {
+    const hsize_t count = std::min<hsize_t>(piece, num_rows - first);
     std::vector<core::Checksum> sums(count);
-    for (const RawRows& column : columns) {
+    for (const RawRows& column : table.columns) {
       std::vector<std::byte> values(count * column.row_bytes);
       column.read(first, count, values.data());
       for (hsize_t row = 0; row < count; ++row)
         sums[row].add(std::span(values).subspan(row * column.row_bytes, column.row_bytes));
     }
-    std::vector<std::uint64_t> expected(count);
-    stored.read(first, count, expected.data());
-    for (hsize_t row = 0; row < count; ++row) {
-      if (sums[row].value() != expected[row])
-        throw core::RunError("row " + std::to_string(first + row) + " of the table of " +
-                             columns.front().path + " changed since it was written");
-    }
+    std::vector<std::uint64_t> values(count);
+    std::ranges::transform(sums, values.begin(), &core::Checksum::value);
+    take(first, values);
   }
+}
+
+void check_table(const Table& table) {
+  sum_rows(table, [&](hsize_t first, const std::vector<std::uint64_t>& sums) {
+    std::vector<std::uint64_t> stored(sums.size());
+    table.checksums.read(first, stored.size(), stored.data());
+    const auto row = std::ranges::mismatch(sums, stored).in1 - sums.begin();
+    if (row < std::ssize(sums))
+      throw core::RunError("row " + std::to_string(first + static_cast<hsize_t>(row)) + " of the table of " +
+                           table.columns.front().path + " changed since it was written");
+  });
 }
 
 }  // namespace
@@ -167,6 +186,15 @@ void create_checksum_attributes(hid_t root) {
 void store_fixed_checksum(hid_t file) { store(file, fixed_name, fixed_checksum(file)); }
 void store_end_checksum(hid_t file) { store(file, end_name, end_checksum(file)); }
 
+void store_row_checksums(hid_t file) {
+  for (const std::string& name : names_in(file, row_checksums)) {
+    const Table table = open_table(file, std::string(row_checksums) + "/" + name, -1);
+    sum_rows(table, [&](hsize_t first, const std::vector<std::uint64_t>& sums) {
+      table.checksums.write(first, sums.size(), sums.data());
+    });
+  }
+}
+
 void check_checksums(hid_t file) {
   if (!attributes_as_text(file, "/").contains(fixed_name)) return;
   require_checksum(file, fixed_name, fixed_checksum, "what is written once (parameters, bodies, geoms ...)");
@@ -178,7 +206,8 @@ void check_rows(hid_t file,
                 const std::function<std::optional<std::int64_t>(const std::string& name)>& num_rows) {
   if (!has_object(file, row_checksums)) return;
   for (const std::string& name : names_in(file, row_checksums)) {
-    if (const auto rows = num_rows(name)) check_table(file, std::string(row_checksums) + "/" + name, *rows);
+    if (const auto rows = num_rows(name))
+      check_table(open_table(file, std::string(row_checksums) + "/" + name, *rows));
   }
 }
 

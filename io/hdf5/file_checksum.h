@@ -31,6 +31,9 @@ void store_fixed_checksum(hid_t file);
 /// the last time.
 void store_end_checksum(hid_t file);
 
+/// Stores, serially, the checksums of all rows of all tables.
+void store_row_checksums(hid_t file);
+
 /// Throws core::RunError where one of the two is stored and does not match. Files before layout 1.4 have
 /// none.
 void check_checksums(hid_t file);

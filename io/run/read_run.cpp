@@ -2,7 +2,9 @@
 #include <utility>
 
 #include "core/error.h"
+#include "io/hdf5/file_checksum.h"
 #include "io/hdf5/read_columns.h"
+#include "io/hdf5/written_file.h"
 #include "io/run/event_columns.h"
 #include "io/run/frame_table.h"
 #include "io/run/run_data.h"
@@ -241,5 +243,13 @@ auto read_from(const std::string& path, Read read) {
 RunData read_run(const std::string& path) { return read_from(path, read_all); }
 
 void require_sound_run(const std::string& path) { read_from(path, check_run); }
+
+void store_checksums(const std::string& path) {
+  auto file = WrittenFile::open(path);
+  store_row_checksums(file.id());
+  store_fixed_checksum(file.id());
+  store_end_checksum(file.id());
+  file.close();
+}
 
 }  // namespace pbmpi::io

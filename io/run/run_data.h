@@ -91,5 +91,7 @@ struct RunData {
 RunData read_run(const std::string& path);
 /// Throws core::InputError as read_run() does, also if what is committed does not match its checksums.
 void require_sound_run(const std::string& path);
+/// Stores all checksums of a run's file that another program has made. Throws core::RunError.
+void store_checksums(const std::string& path);
 
 }  // namespace pbmpi::io

@@ -90,11 +90,11 @@ class Whole(Files):
 
 class Joined(unittest.TestCase):
     def test_the_parameters_that_change_no_result_are_those_of_pbreport_join(self):
-        text = (SOURCE / "io/join/run_settings.cpp").read_text(encoding="utf-8")
-        [names] = re.findall(r"std::array nothing = \{(.*?)\};", text, re.DOTALL)
+        text = (SOURCE / "src/app/reports/runs.py").read_text(encoding="utf-8")
+        [names] = re.findall(r"^FREE = \((.*?)\)", text, re.DOTALL | re.MULTILINE)
         self.assertEqual(FREE, set(re.findall(r'"(\w+)"', names)))
-        beginnings = re.findall(r'name\.starts_with\("(\w+)"\)', text)
-        self.assertEqual({*FREE_BEGINNINGS, "estimate_"}, set(beginnings))
+        [beginnings] = re.findall(r"name in FREE or name\.startswith\((.*?)\)", text)
+        self.assertEqual(set(FREE_BEGINNINGS), set(re.findall(r'"(\w+)"', beginnings)))
 
 
 class Killed(Files):

@@ -10,7 +10,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "core/error.h"
 #include "core/system/descriptor.h"
 
 namespace pbmpi::app {
@@ -63,6 +62,14 @@ int exit_code_of(std::vector<std::string> command, const std::string& output) {
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+core::ExitCode run_report_for(const std::string& output, const std::vector<std::string>& words) {
+  const int code = exit_code_of(python_command("reports", words));
+  if (code > static_cast<int>(core::ExitCode::bad_input))
+    throw core::RunError(output + ": Python, which writes it, was killed or cannot be started (exit code " +
+                         std::to_string(code) + "); install Python, or name it in PBMPI_PYTHON");
+  return static_cast<core::ExitCode>(code);
 }
 
 }  // namespace pbmpi::app

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+
 namespace pbmpi::app {
 
 /// The folder of this program's file.
@@ -20,5 +22,9 @@ std::vector<std::string> python_command(const std::string& package, const std::v
 /// started. What it prints goes to the file `output`; without one, to where this program prints. It ends with
 /// this program, and gets no signals that are sent to this program's group. Throws core::RunError.
 int exit_code_of(std::vector<std::string> command, const std::string& output = "");
+
+/// Runs a report of the package "reports" to its end, which writes the file `output` and says what is wrong.
+/// Throws core::RunError if it was killed or cannot be started.
+core::ExitCode run_report_for(const std::string& output, const std::vector<std::string>& words);
 
 }  // namespace pbmpi::app

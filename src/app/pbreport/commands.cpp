@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "app/pbreport/join/join.h"
 #include "app/pbreport/python_report.h"
-#include "app/pbreport/repair/repair.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
 

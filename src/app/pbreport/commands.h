@@ -21,6 +21,13 @@ struct ReportCommand {
 /// The first one runs when the first argument names no command.
 const std::vector<ReportCommand>& report_commands();
 
+/// "pbreport join A B ... -o ALL": a run and the runs resumed from its checkpoints as one file. Throws
+/// core::InputError: bad usage, files that are not of one run, frames that are missing or differ.
+core::ExitCode run_join(const std::vector<std::string>& args, std::ostream& out);
+/// "pbreport repair FILE": frees the disk space that a killed run still occupies. Throws core::InputError:
+/// bad usage, a file that is not a run's, or one that a run is still writing.
+core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& out);
+
 /// Manual of pbreport itself and of the first command.
 Manual pbreport_manual();
 

@@ -1,6 +1,5 @@
 """What reports read of files of runs, and which they refuse."""
 import pathlib
-import re
 import sys
 import unittest
 
@@ -74,12 +73,6 @@ class Reading(Files):
 
 
 class Settings(Files):
-    def test_what_changes_no_result_is_what_the_cpp_says(self):
-        text = (SOURCE / "io/join/run_settings.cpp").read_text(encoding="utf-8")
-        for kind, names in (("seeds", runs.SEEDS), ("nothing", runs.FREE)):
-            [listed] = re.findall(rf"std::array {kind} = \{{(.*?)\}};", text, re.DOTALL)
-            self.assertEqual(set(names), set(re.findall(r'"(\w+)"', listed)))
-
     def test_parameters_matter_for_results_samples_estimates_or_nothing(self):
         for name, matters in (("iterations", runs.RESULTS), ("seed", runs.SEED), ("estimate_iterations", runs.ESTIMATE), ("feec", runs.ESTIMATE),
                               ("ranks", runs.NOTHING), ("env_OMP_NUM_THREADS", runs.NOTHING)):

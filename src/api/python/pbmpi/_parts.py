@@ -7,7 +7,7 @@ import numpy as np
 from ._files import attributes_of, parameters_of
 from ._rows import Piece
 
-# Parameters that change no result (io/join/run_settings.cpp has the same list), and beginnings of such.
+# Parameters that change no result (src/app/reports/runs.py has the same list), and beginnings of such.
 FREE = {"ranks", "processors", "build", "simd", "threads", "decompose", "budget", "frames", "record_every", "record_islands",
         "record_contacts", "record_residuals", "resumed_from", "joined_from", "parameters_file", "ranks_per_world", "rank_groups",
         "on_blowup"}

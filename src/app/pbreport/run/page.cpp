@@ -32,11 +32,7 @@ core::ExitCode write_page(const std::string& file, const std::string& page, cons
   const UnnamedFile numbers = stored(to_json(summary));
   const std::string path_of_numbers = "/dev/fd/" + std::to_string(fileno(numbers.get()));
   setenv("PBREPORT_VERSION", version_line("pbreport").c_str(), 1);
-  const int code = exit_code_of(python_command("reports", {"report", file, page, path_of_numbers}));
-  if (code > static_cast<int>(core::ExitCode::bad_input))
-    throw core::RunError(page + ": Python, which writes it, was killed or cannot be started (exit code " +
-                         std::to_string(code) + "); install Python, or name it in PBMPI_PYTHON");
-  return static_cast<core::ExitCode>(code);
+  return run_report_for(page, {"report", file, page, path_of_numbers});
 }
 
 }  // namespace pbmpi::app

@@ -1,11 +1,10 @@
-#include "app/pbreport/repair/repair.h"
-
 #include <ostream>
 
 #include <fmt/core.h>
 
 #include "app/common/options.h"
 #include "app/common/text_output.h"
+#include "app/pbreport/commands.h"
 #include "io/repair/repair_run.h"
 
 namespace pbmpi::app {
@@ -13,14 +12,12 @@ namespace {
 
 namespace po = boost::program_options;
 
-po::options_description visible_options() {
+po::options_description repair_options() {
   po::options_description all("Options");
   add_help_options(all);
   all.add_options()("quiet,q", "print nothing but errors");
   return all;
 }
-
-}  // namespace
 
 Manual repair_manual() {
   return {.name = "pbreport repair",
@@ -29,11 +26,13 @@ Manual repair_manual() {
               "they are, and gives back the disk space behind them. It removes what else the run left beside "
               "the file.",
           .usage = "pbreport repair RUN.h5...",
-          .options = visible_options()};
+          .options = repair_options()};
 }
 
+}  // namespace
+
 core::ExitCode run_repair(const std::vector<std::string>& args, std::ostream& out) {
-  const po::variables_map values = parse_with_files(args, visible_options());
+  const po::variables_map values = parse_with_files(args, repair_options());
   if (values.count("help") != 0) {
     out << help_of(repair_manual());
     require_printed(out, "the help");

@@ -1,0 +1,1 @@
+"""pbreport join: a run and its continuations from checkpoints as one file."""
