@@ -1,4 +1,4 @@
-/// A run read back from its HDF5 file.
+/// What the summary of a run needs of its HDF5 file.
 #pragma once
 
 #include <array>
@@ -15,44 +15,20 @@
 
 namespace pbmpi::io {
 
-struct BodyTable {
-  std::vector<std::int64_t> id;     ///< [N] 0 .. N-1 in (world, body) order
-  std::vector<int> world;           ///< [N]
-  std::vector<int> local_body;      ///< [N] index in its world
-  std::vector<std::string> name;    ///< [N]
-  std::vector<std::string> kind;    ///< [N] actor kind, e.g. "human"
-  std::vector<std::string> actor;   ///< [N] actor name, e.g. "human1"
-  std::vector<double> mass_kg;      ///< [N]
-  std::vector<core::Pose> initial;  ///< [N]
-};
-
-/// One geom of one world, for the replay.
-struct GeomRow {
-  int world = 0;
-  std::int64_t body = -1;  ///< global body id; -1 = static
-  std::string kind;        ///< actor kind
-  std::string shape;
-  std::array<double, 3> size{};
-  core::Pose local;
-};
-
-/// One island of a profiled step.
-struct IslandRow {
-  std::int64_t first_body = 0;  ///< global id of its lowest body
-  int bodies = 0, contacts = 0, rows = 0;
-  double solve_s = 0;  ///< solved alone
-};
-
 /// Per-frame columns of one observable: [T][W], frame first.
 using Table = std::vector<std::vector<double>>;
-using VectorTable = std::vector<std::vector<core::Vec3>>;
+
+/// The poses of the bodies in the recorded frames.
+struct Motion {
+  std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
+  std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
+};
 
 /// The part of a run's data that FEEC adds. Empty without it.
 struct EstimateData {
-  std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
-  std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
-  std::vector<double> delivered_s;                   ///< [T] start of the frame until root had the estimate
-  std::vector<double> precise_s;  ///< [T] start of the frame until root had the precise result
+  Motion estimated, precise;
+  std::vector<double> delivered_s;  ///< [T] start of the frame until root had the estimate
+  std::vector<double> precise_s;    ///< [T] start of the frame until root had the precise result
 };
 
 struct RunData {
@@ -62,21 +38,12 @@ struct RunData {
   std::int64_t frames_committed = 0;
   int num_worlds = 0;
   int num_ranks = 0;
-  BodyTable bodies;
-  std::vector<GeomRow> geoms;
-  std::vector<std::int64_t> recorded_step;           ///< [P] steps at which bodies were stored
-  std::vector<double> recorded_time_s;               ///< [P]
-  std::vector<std::vector<core::Vec3>> position;     ///< [P][N] m
-  std::vector<std::vector<core::Quat>> orientation;  ///< [P][N]
-  /// Columns of stepping::world_observables that the file has: name -> [T][W].
+  std::int64_t num_bodies = 0;
+  /// Columns of stepping::world_observables that are numbers and that the file has: name -> [T][W].
   std::map<std::string, Table> observables;
-  std::map<std::string, VectorTable> vector_observables;
-  std::vector<double> frame_wall_s;             ///< [T]
-  std::vector<bool> frame_measured;             ///< [T]
-  std::vector<bool> deadline_met;               ///< [T]
-  std::map<std::string, Table> rank_times;      ///< phase, "useful" -> [T][R] s; "messages", "bytes"
-  std::vector<std::vector<IslandRow>> islands;  ///< [T] of all worlds; empty unless the run recorded them
-  std::map<std::string, Table> space_times;     ///< cross_contacts, collide, collide_spaces; as for islands
+  std::vector<double> frame_wall_s;         ///< [T]
+  std::vector<bool> frame_measured;         ///< [T]
+  std::map<std::string, Table> rank_times;  ///< phase, "useful" -> [T][R] s; "messages", "bytes"
   EstimateData estimate;
   std::vector<std::string> hosts;          ///< [R]
   std::vector<stepping::RunEvent> events;  ///< events that have a row in the file, in order of arrival

@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "core/error.h"
-#include "io/run/run_data.h"
 #include "shared_folder.h"
+#include "whole_run.h"
 
 namespace pbmpi::io::test {
 namespace {
@@ -17,7 +17,7 @@ const mpi::Communicator& world() {
   return communicator;
 }
 
-void expect_profiles(const RunData& run, const Sample& sample, std::int64_t num_frames) {
+void expect_profiles(const WholeRun& run, const Sample& sample, std::int64_t num_frames) {
   ASSERT_EQ(run.islands.size(), static_cast<std::size_t>(sample.profile ? num_frames : 0));
   for (std::size_t k = 0; k < run.islands.size(); ++k) {
     std::size_t row = 0;
@@ -42,7 +42,7 @@ void expect_profiles(const RunData& run, const Sample& sample, std::int64_t num_
 }
 
 /// Expects every number of the sample's first `num_frames` frames, bit for bit: nothing in between computes.
-void expect_sample(const RunData& run, const Sample& sample, std::int64_t num_frames) {
+void expect_sample(const WholeRun& run, const Sample& sample, std::int64_t num_frames) {
   ASSERT_EQ(run.frames_committed, num_frames);
   ASSERT_EQ(run.num_worlds, sample.num_worlds);
   ASSERT_EQ(run.num_ranks, sample.num_ranks);
@@ -93,7 +93,7 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   file.reset();  // releases the lock
   if (!world().is_root()) return;
 
-  const RunData run = read_run(path);
+  const WholeRun run = read_whole_run(path);
   expect_sample(run, sample, sample.num_frames);
   EXPECT_TRUE(run.complete);
   EXPECT_EQ(run.attributes.at("state_hash"), "0123456789abcdef");
@@ -123,7 +123,7 @@ TEST(RunFile, describes_bodies_and_geoms_in_world_order) {
   begin_run(world(), sample, path, 1)->close(false, "");
   if (!world().is_root()) return;
 
-  const RunData run = read_run(path);
+  const WholeRun run = read_whole_run(path);
   std::size_t body = 0, geom = 0;
   for (int w = 0; w < sample.num_worlds; ++w) {
     const auto model = sample_model(sample, w);
@@ -163,7 +163,7 @@ TEST(RunFile, describes_the_bodies_of_a_large_world) {
   const std::string path = folder.file("run.h5");
   begin_run(world(), sample, path, 0)->close(false, "");
   if (!world().is_root()) return;
-  const RunData run = read_run(path);
+  const WholeRun run = read_whole_run(path);
   ASSERT_EQ(run.bodies.name.size(), 400'000u);
   EXPECT_EQ(run.bodies.name.back(), sample_model(sample, 0)->bodies.back().name);
 }
@@ -179,7 +179,7 @@ TEST(RunFile, keeps_the_rows_of_worlds_that_migrate_between_frames) {
   };
   const std::string path = folder.file("run.h5");
   begin_run(world(), sample, path, sample.num_frames)->close(true, "");
-  if (world().is_root()) expect_sample(read_run(path), sample, sample.num_frames);
+  if (world().is_root()) expect_sample(read_whole_run(path), sample, sample.num_frames);
 }
 
 TEST(RunFile, lets_ranks_without_a_world_take_part) {
@@ -188,7 +188,7 @@ TEST(RunFile, lets_ranks_without_a_world_take_part) {
   sample.owner = [last = sample.num_ranks - 1](int, std::int64_t) { return last; };
   const std::string path = folder.file("run.h5");
   begin_run(world(), sample, path, sample.num_frames)->close(true, "");
-  if (world().is_root()) expect_sample(read_run(path), sample, sample.num_frames);
+  if (world().is_root()) expect_sample(read_whole_run(path), sample, sample.num_frames);
 }
 
 TEST(RunFile, records_bodies_only_every_so_many_frames) {
@@ -198,7 +198,7 @@ TEST(RunFile, records_bodies_only_every_so_many_frames) {
     sample.record_every = every;
     const std::string path = folder.file("run.h5");
     begin_run(world(), sample, path, sample.num_frames)->close(true, "");
-    if (world().is_root()) expect_sample(read_run(path), sample, sample.num_frames);
+    if (world().is_root()) expect_sample(read_whole_run(path), sample, sample.num_frames);
   }
 }
 
@@ -212,7 +212,7 @@ TEST(RunFile, commits_at_every_flush_and_is_readable_before_it_is_closed) {
   RunFile file(group_of(world()), std::move(setup));
   for (std::int64_t k = 0; k < 4; ++k) {
     world().barrier();
-    if (world().is_root()) expect_sample(read_run(path), sample, k);
+    if (world().is_root()) expect_sample(read_whole_run(path), sample, k);
     world().barrier();
     put_frame(file, sample, k);
   }
@@ -228,7 +228,7 @@ TEST(RunFile, commits_what_it_holds_before_the_run_is_saved) {
   for (std::int64_t k = 0; k < 3; ++k) put_frame(file, sample, k);
   file.secure();
   world().barrier();
-  if (world().is_root()) expect_sample(read_run(path), sample, 3);
+  if (world().is_root()) expect_sample(read_whole_run(path), sample, 3);
   world().barrier();
   file.close(false, "");
 }
@@ -246,7 +246,7 @@ TEST(RunFile, of_a_run_that_goes_on_has_its_own_rows_for_frames_that_keep_their_
   for (std::int64_t k = 3; k < 6; ++k) put_frame(file, sample, k);
   file.close(true, "");
   if (!world().is_root()) return;
-  const RunData run = read_run(path);
+  const WholeRun run = read_whole_run(path);
   EXPECT_EQ(run.attributes.at("first_frame"), "3");
   EXPECT_EQ(run.frames_committed, 3);
   EXPECT_EQ(run.frame_wall_s, (std::vector<double>{sample_wall_s(3), sample_wall_s(4), sample_wall_s(5)}));
@@ -266,7 +266,7 @@ TEST(RunFile, cuts_the_datasets_of_a_run_that_ended_early) {
   const auto planned = world().is_root() ? std::filesystem::file_size(path) : 0;
   file->close(false, "");
   if (!world().is_root()) return;
-  const RunData run = read_run(path);
+  const WholeRun run = read_whole_run(path);
   expect_sample(run, sample, 7);
   EXPECT_FALSE(run.complete);
   EXPECT_LT(std::filesystem::file_size(path), planned);
@@ -277,7 +277,7 @@ TEST(RunFile, closes_without_a_single_frame) {
   const Sample sample = sample_on(world());
   const std::string path = folder.file("run.h5");
   begin_run(world(), sample, path, 0)->close(false, "");
-  if (world().is_root()) expect_sample(read_run(path), sample, 0);
+  if (world().is_root()) expect_sample(read_whole_run(path), sample, 0);
 }
 
 TEST(RunFile, counts_the_events_for_which_it_has_no_room) {
@@ -289,7 +289,7 @@ TEST(RunFile, counts_the_events_for_which_it_has_no_room) {
   for (int i = 66; i < 516; ++i) file->event({i, "joint_broken", "é" + std::string(200, 'x')});
   file->close(false, "");
   if (!world().is_root()) return;
-  const RunData run = read_run(path);
+  const WholeRun run = read_whole_run(path);
   ASSERT_EQ(run.events.size(), 512u) << "the preallocated rows (io/SCHEMA.md)";
   EXPECT_EQ(run.events[63].kind, "rebalance");
   EXPECT_EQ(run.events[64].frame, 66) << "rebalances leave 448 rows to what happens to worlds";

@@ -23,7 +23,7 @@ io::RunData small_run() {
   run.frames_committed = 3;
   run.num_worlds = 2;
   run.num_ranks = 2;
-  run.bodies.id = {0, 1, 2, 3};
+  run.num_bodies = 4;
   run.hosts = {"a", "a"};
   run.frame_wall_s = {1, 0.002, 0.006};
   run.frame_measured = {false, true, true};

@@ -138,13 +138,15 @@ EstimateSummary estimate_of(const io::RunData& run, const std::string& path, dou
   summary.precision = core::value_in(run.parameters, "estimate_precision");
   compute_delivery(only_measured(run.estimate.delivered_s, run.frame_measured),
                    only_measured(run.estimate.precise_s, run.frame_measured), budget_s, summary);
-  const std::size_t record_every = run.position.empty() ? 1 : run.frame_measured.size() / run.position.size();
+  const io::Motion &estimated = run.estimate.estimated, &precise = run.estimate.precise;
+  const std::size_t record_every =
+      precise.position.empty() ? 1 : run.frame_measured.size() / precise.position.size();
   std::vector<double> distances, angles;
-  for (std::size_t row = 0; row < run.position.size(); ++row) {
+  for (std::size_t row = 0; row < precise.position.size(); ++row) {
     if (!run.frame_measured[(row + 1) * record_every - 1]) continue;
     const analysis::PoseErrors errors =
-        analysis::compare_bodies({run.estimate.position[row], run.estimate.orientation[row]},
-                                 {run.position[row], run.orientation[row]});
+        analysis::compare_bodies({estimated.position[row], estimated.orientation[row]},
+                                 {precise.position[row], precise.orientation[row]});
     distances.insert(distances.end(), errors.body_position_m.begin(), errors.body_position_m.end());
     angles.insert(angles.end(), errors.body_orientation_rad.begin(), errors.body_orientation_rad.end());
   }
@@ -196,7 +198,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.worlds_survived = worlds_survived(run);
   summary.ranks = run.num_ranks;
   summary.idle_ranks = idle_ranks(run);
-  summary.bodies = static_cast<std::int64_t>(run.bodies.id.size());
+  summary.bodies = run.num_bodies;
   summary.warmup_frames =
       std::find(run.frame_measured.begin(), run.frame_measured.end(), true) - run.frame_measured.begin();
   compute_performance(measured_frames(run), summary);
