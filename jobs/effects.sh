@@ -46,7 +46,7 @@ if [[ $count == yes ]]; then
   rm -f "$out"/callgrind.*
   counted=(--instructions-from "$out/counted.h5")
 fi
-mpirun -n "${RANKS:-2}" "$bin/pbstudy" effects "${study[@]}" "${counted[@]}" --output "$out/effects.h5"
-"$bin/pbreport" "$out/effects.h5" --html "$out/effects.html" | tee "$out/effects.txt"
+mpirun -n "${RANKS:-2}" "$bin/pbstudy" effects "${study[@]}" --output "$out/effects.h5"
+"$bin/pbreport" "$out/effects.h5" "${counted[@]}" --html "$out/effects.html" | tee "$out/effects.txt"
 echo
-"$bin/pbreport" "$out/effects.h5" --markdown | tee "$out/effects.md"
+"$bin/pbreport" "$out/effects.h5" "${counted[@]}" --markdown | tee "$out/effects.md"

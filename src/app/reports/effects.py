@@ -5,13 +5,24 @@ import math
 from reports import charts, errors, page
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
-from reports.files import in_order_of, read_study
+from reports.files import in_order_of, read_study, require
 from reports.words import NO_NUMBER, percent, plural, stepper_in
+
+# Columns in which two studies must agree before one can take the other's counts, and those of the counts.
+SETTINGS = ("scene", "kind", "effect", "stepper", "precision", "iterations", "dt", "solver_seed", "steps_per_frame", "worlds", "warmup", "frames")
+STATES, COUNTS = ("hash_baseline", "hash_variant"), ("instructions_with", "instructions_without")
+
+
+def add_options(group):
+    add_scene_option(group)
+    group.add_argument("--instructions-from", metavar="FILE", help="take the counts of instructions from this study of the same cases, which counted "
+                       "them")
+
 
 COMMAND = Command("effects", "Shows what each effect costs: the file of pbstudy effects. The word effects may be left out.",
                   "effects.h5 [options]", page="share of the step and error if left out, effect by scene",
                   markdown="print a table a stepper instead: share of the step [%%] and defect without the effect, in brackets what demanding "
-                  "it costs", csv="all cases as comma-separated values", add_options=add_scene_option)
+                  "it costs", csv="all cases as comma-separated values", add_options=add_options)
 
 
 class Effect:
@@ -86,6 +97,20 @@ def scenes_of(study, names):
         scene = scenes.setdefault((row.scene, stepper), Scene(row.scene, stepper))
         (scene.floor if row.kind == "floor" else scene.effects).append(Effect(row, counted))
     return in_order_of(names, list(scenes.values()), lambda scene: scene.name)
+
+
+def take_counts(study, path):
+    """Gives a study the counts of instructions of another. Raises BadInput for one that has none, or is of other cases or states."""
+    other = read_study(path, "effects")
+    cases, theirs = study.tables["cases"], other.tables["cases"]
+    require(all(name in theirs for name in COUNTS), f"{path}: it has no column instructions_with; jobs/effects.sh --instructions counts them")
+    for name in SETTINGS:
+        require(cases[name] == theirs[name], f"{path}: its cases are not those of {study.path}, they differ in {name}; give both the same options")
+    for name in STATES:
+        require(cases[name] == theirs[name], f"{path}: its states are not those of {study.path}, so that its counts are of something else; count with "
+                "the same build")
+    cases.update({name: theirs[name] for name in COUNTS})
+    study.parameters["instructions_by"] = instructions_by(other)
 
 
 def instructions_by(study):
@@ -247,4 +272,6 @@ def run(words):
     if options is None:
         return
     study = read_study(one_file(options, "a study of effects", "effects.h5"), "effects")
+    if options.instructions_from:
+        take_counts(study, options.instructions_from)
     deliver(report_of(study, options.scene), options, study.tables["cases"])

@@ -115,15 +115,14 @@ class Effects(ProgramTest):
         result = self.run_command(command, env={**os.environ, "PBMPI_CALLGRIND_OUT": prefix})
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("instructions: counted by callgrind", result.stdout)
-        table = self.made(1, "study.h5", *args, "--instructions-from", "counted.h5")
-        with h5py.File(self.path("study.h5")) as file:
-            self.assertEqual(file["parameters/instructions_by"][()], b"callgrind")
-        share = {effect.decode(): 1 - without / counted for effect, counted, without in
-                 zip(table["effect"], table["instructions_with"], table["instructions_without"])}
+        self.made(1, "study.h5", *args)
+        report = self.json(self.report("study.h5", "--instructions-from", "counted.h5", "--json"))
+        self.assertEqual(report["instructions_by"], "callgrind")
+        share = {one["effect"]: one["instructions"]["share"] for one in report["scenes"][0]["effects"]}
         self.assertGreater(share["friction"], 0.02, "three rows a contact instead of one")
         self.assertLess(abs(share["restitution"]), 0.01, "demanded: a test of each contact's approach at most")
-        self.refused(self.study(1, *args[:4], "--effect", "friction", *FAST, "--instructions-from", "counted.h5"),
-                     "counted.h5", "same options")
+        self.made(1, "other.h5", *args[:4], "--effect", "friction", *FAST)
+        self.refused(self.report("other.h5", "--instructions-from", "counted.h5"), "counted.h5", "same options")
 
     def refused(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -137,7 +136,6 @@ class Effects(ProgramTest):
         self.refused(self.study(2, "--scene", "CrashSq"), "CrashSq", "CrashSk")
         self.refused(self.study(2, "--effect", "fricton"), "fricton", "did you mean 'friction'?")
         self.refused(self.study(2, "--scene", "CrashSk", "--repeats", "0"), "--repeats")
-        self.refused(self.study(2, "--scene", "CrashSk", "--instructions-from", "absent.h5"), "absent.h5")
         self.refused(self.study(2, "--scene", "CrashSk", "--output", "no/folder/x.h5"), "no/folder/x.h5")
         self.assertEqual(set(os.listdir(self.folder)), before)
 
@@ -146,14 +144,14 @@ class Effects(ProgramTest):
         self.refused(self.report("study.h5", "--scene", "Fight"), "Fight", "2-Cars")
         self.refused(self.report("study", "study.h5"), "study of effects", "pbreport effects")
         self.refused(self.report("effects", "absent.h5"), "absent.h5")
-        result = self.study(1, "--scene", "2-Cars", "--stepper", "sor", *FAST, "--instructions-from", "study.h5")
+        self.refused(self.report("study.h5", "--instructions-from", "absent.h5"), "absent.h5")
         if "instructions_with" not in h5py.File(self.path("study.h5"))["cases"]:
-            self.refused(result, "instructions_with")
+            self.refused(self.report("study.h5", "--instructions-from", "study.h5"), "instructions_with")
 
     def test_help_names_every_option(self):
         result = self.study(1, "--help", "all")
         self.assertEqual(result.returncode, 0)
-        for option in ("--scene", "--effect", "--stepper", "--repeats", "--floor-seeds", "--instructions-from"):
+        for option in ("--scene", "--effect", "--stepper", "--repeats", "--floor-seeds"):
             self.assertIn(option, result.stdout)
 
 

@@ -1,8 +1,6 @@
 #include <iostream>
-#include <optional>
 
 #include "app/common/engine_texts.h"
-#include "app/pbstudy/effects/counted_study.h"
 #include "app/pbstudy/effects/effects_table.h"
 #include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
@@ -63,17 +61,11 @@ core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std:
   }
   StudyRunner runner(comm, "effects", options);
   const std::vector<EffectCase> cases = make_effect_cases(runner.scenes(), options);
-  std::optional<CountedStudy> counted;
-  runner.open_output([&] {
-    if (options.instructions_from) counted.emplace(*options.instructions_from, runner.scenes(), cases);
-  });
+  runner.open_output();
   core::InstructionCounter counter;
-  std::vector<EffectResult> results = run_cases(options, cases, counter, runner);
-  runner.write([&] {
-    if (counted) counted->give_counts(results);
-    const std::string counted_by = counted ? counted->source() : std::string(core::name_of(counter.source()));
-    return content(runner.scenes(), cases, results, counted_by);
-  });
+  const std::vector<EffectResult> results = run_cases(options, cases, counter, runner);
+  runner.write(
+      [&] { return content(runner.scenes(), cases, results, std::string(core::name_of(counter.source()))); });
   return core::ExitCode::done;
 }
 

@@ -25,13 +25,10 @@ po::options_description options_description() {
   for (const VariedOption& one : varied) add_setting_list(one, what);
   what.add_options()("iterations", po::value<int>()->value_name("N"),
                      "default: the scene's with quick, 1 with sor");
-  po::options_description how =
+  const po::options_description how =
       how_to_measure({"of the scene's variation and of the solver",
                       "how often each frame is timed with and without the effect, in turn", 15,
                       "noise floor: the scene as it is with this many other solver seeds", 4});
-  how.add_options()  //
-      ("instructions-from", po::value<std::string>()->value_name("FILE"),
-       "take the counts of instructions from this study of the same cases, which counted them");
   po::options_description all;
   all.add(what).add(how).add(what_to_write("effects.h5")).add(common_options_description());
   return all;
@@ -67,7 +64,7 @@ Manual effects_manual() {
       .notes = {std::string(one_case_a_rank) + spoils_times +
                 " Instructions are counted by the processor's counter where Linux gives it "
                 "(perf_event_open), or under callgrind (jobs/effects.sh --instructions); else they are not "
-                "in the file."},
+                "in the file, and pbreport effects --instructions-from takes those of another."},
       .examples = {"mpirun -n 2 pbstudy effects --scene CrashWa", "pbreport effects.h5 --html effects.html"}};
 }
 
@@ -78,9 +75,6 @@ EffectsOptions parse_effects_options(const std::vector<std::string>& args) {
   options.effects = known_effects(list<std::string>(values, "effect", {}));
   options.settings = setting_lists(varied, values);
   options.iterations = given(values, "iterations", 1);
-  options.instructions_from = output_path(values, "instructions-from");
-  core::require_input(options.instructions_from != options.output,
-                      "--instructions-from " + options.output + ": it is to be read, not written over");
   return options;
 }
 

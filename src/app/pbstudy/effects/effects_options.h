@@ -13,10 +13,9 @@
 namespace pbmpi::app {
 
 struct EffectsOptions : StudyOptions {
-  std::vector<std::string> effects;              ///< names in the registry's order
-  std::vector<SettingList> settings;             ///< of the steppers to measure
-  std::optional<int> iterations;                 ///< empty: the scene's
-  std::optional<std::string> instructions_from;  ///< a file with counts for the same cases
+  std::vector<std::string> effects;   ///< names in the registry's order
+  std::vector<SettingList> settings;  ///< of the steppers to measure
+  std::optional<int> iterations;      ///< empty: the scene's
 };
 
 /// Throws core::InputError with one clear message.

@@ -44,12 +44,10 @@ void StudyRunner::require_distinct_names() const {
   }
 }
 
-void StudyRunner::open_output(const std::function<void()>& check) {
+void StudyRunner::open_output() {
   const core::Awaited all_ranks("all ranks to begin, and root to create " + options_.output);
   mpi::agree_on_errors(comm_, [&] {
-    if (!comm_.is_root()) return;
-    if (check) check();
-    writer_ = std::make_unique<io::TableWriter>(options_.output);
+    if (comm_.is_root()) writer_ = std::make_unique<io::TableWriter>(options_.output);
   });
   provenance_ = collect_provenance(comm_, options_.command_line);
   constexpr int num_threads = 1;

@@ -56,8 +56,8 @@ class StudyRunner {
   const std::vector<StudyScene>& scenes() const { return scenes_; }
   const StudyScene& scene(int index) const { return scenes_[static_cast<std::size_t>(index)]; }
 
-  /// Makes sure before the work begins that the file can be written, if `check` (on root) throws nothing.
-  void open_output(const std::function<void()>& check = {});
+  /// Makes sure before the work begins that the file can be written.
+  void open_output();
 
   /// Runs cases, one at a time, with run_case(index), which gives a CaseOutcome, or a Result; all ranks get
   /// the outcomes of all cases, in their order. A case has a `scene`. A rank that is done with a case takes
