@@ -1,15 +1,17 @@
 #include "app/pbreport/run/summary_from_file.h"
 
 #include <algorithm>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <sstream>
 
 #include "analysis/pose_errors.h"
-#include "app/pbreport/run/run_models.h"
 #include "app/summary/rank_groups_text.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "effects/effect_choices.h"
+#include "scenes/parameter_table.h"
 #include "scenes/scene.h"
 #include "stepping/frame.h"
 #include "stepping/run_event.h"
@@ -70,6 +72,21 @@ std::vector<int> idle_ranks(const io::RunData& run) {
     if (useful->second.back()[static_cast<std::size_t>(rank)] == 0) idle.push_back(rank);
   }
   return idle;
+}
+
+/// Worlds of `scene` as the run had them: with their numbers in the ensemble, and their parameters.
+std::vector<std::shared_ptr<const model::Model>> build_worlds(const scenes::Scene& scene,
+                                                              const io::RunData& run, std::uint64_t seed) {
+  const std::string text = core::value_in(run.parameters, "parameters_text");
+  std::optional<scenes::ParameterTable> parameters;
+  if (!text.empty()) parameters.emplace(core::value_in(run.parameters, "parameters_file"), text);
+  std::vector<std::shared_ptr<const model::Model>> worlds;
+  for (const std::int64_t id : run.world_id) {
+    const auto number = static_cast<int>(id);
+    const bool has_row = parameters && number < parameters->num_worlds();
+    worlds.push_back(scene.build(number, seed, has_row ? parameters->of_world(number) : scenes::Overrides()));
+  }
+  return worlds;
 }
 
 /// The effects that the scene calls for, from the scene's text in the file. None if this pbmpi cannot read

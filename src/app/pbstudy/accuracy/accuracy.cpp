@@ -3,7 +3,7 @@
 
 #include <fmt/core.h>
 
-#include "app/pbstudy/accuracy/accuracy_table.h"
+#include "app/pbstudy/accuracy/case_runner.h"
 #include "app/pbstudy/accuracy/nature_rows.h"
 #include "app/pbstudy/accuracy/own_solution.h"
 #include "app/pbstudy/study/engine_differences.h"

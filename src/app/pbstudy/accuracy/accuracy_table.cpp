@@ -1,4 +1,4 @@
-#include "app/pbstudy/accuracy/accuracy_table.h"
+#include "app/pbstudy/accuracy/case_runner.h"
 
 #include "app/pbstudy/study/table_columns.h"
 

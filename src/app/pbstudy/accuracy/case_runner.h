@@ -12,6 +12,7 @@
 #include "app/pbstudy/accuracy/nature.h"
 #include "app/pbstudy/accuracy/rest_runner.h"
 #include "app/pbstudy/study/case_stepper.h"
+#include "io/table/table_file.h"
 
 namespace pbmpi::app {
 
@@ -72,5 +73,10 @@ CaseResult unobserved();
 
 /// Sets the times of `result` from those of its measured frames [s], [frame][repeat].
 void summarize_times(const std::vector<std::vector<double>>& times_s, CaseResult& result);
+
+/// Columns with one row per case (io/SCHEMA.md). `results` [num_cases] in the order of the cases.
+std::vector<io::TableColumn> case_columns(const std::vector<StudyScene>& scenes,
+                                          const std::vector<AccuracyCase>& cases,
+                                          const std::vector<CaseResult>& results);
 
 }  // namespace pbmpi::app

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "mpi/comm/communicator.h"
+
 namespace pbmpi::app {
 
 /// The part that was timed.
@@ -44,5 +46,16 @@ bool is_collective(const TimedCase& one);
 
 /// The cases 0 to `num_cases` - 1 in the random order of a round.
 std::vector<std::size_t> order_of_round(std::size_t num_cases, std::uint64_t seed, int round);
+
+/// Seconds of a frame of worlds without physics; the shortest of a few. Collective over `comm`, which is the
+/// null communicator for frames of one rank.
+double time_frame(const mpi::Communicator& comm, const TimedCase& one);
+
+/// Seconds of root's work for one.ranks ranks, none of which is there. Not collective.
+double time_root(const TimedCase& one);
+
+/// Seconds of a message between ranks 0 and 1; collective over the two. Measured at the rank that the part
+/// names.
+double time_message(const mpi::Communicator& comm, const TimedCase& one);
 
 }  // namespace pbmpi::app

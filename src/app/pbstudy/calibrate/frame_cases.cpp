@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "app/pbstudy/calibrate/timed_cases.h"
+#include "app/pbstudy/calibrate/calibrate_cases.h"
 #include "mpi/worlds/world_driver.h"
 #include "synthetic/fixed_cost_stepper.h"
 

@@ -1,6 +1,6 @@
 #include <vector>
 
-#include "app/pbstudy/calibrate/timed_cases.h"
+#include "app/pbstudy/calibrate/calibrate_cases.h"
 #include "core/clock.h"
 
 namespace pbmpi::app {

@@ -1,7 +1,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "app/pbstudy/calibrate/timed_cases.h"
+#include "app/pbstudy/calibrate/calibrate_cases.h"
 #include "core/clock.h"
 #include "mpi/balance/rebalancer.h"
 #include "mpi/frame/frame_driver.h"

@@ -1,7 +1,7 @@
 #include <iostream>
 
 #include "app/common/engine_texts.h"
-#include "app/pbstudy/effects/effects_table.h"
+#include "app/pbstudy/effects/effects_runner.h"
 #include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
 

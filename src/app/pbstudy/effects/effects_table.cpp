@@ -1,4 +1,4 @@
-#include "app/pbstudy/effects/effects_table.h"
+#include "app/pbstudy/effects/effects_runner.h"
 
 #include "app/pbstudy/study/table_columns.h"
 #include "core/hash.h"
