@@ -8,7 +8,6 @@ recomputes the tables without a clock, and fails with the names of those that di
 import argparse
 import collections
 import os
-import pathlib
 import re
 import sys
 
@@ -45,7 +44,8 @@ ENTRIES = {
                            ["pbstudy stability --setting sor \"sor iterations=16\" \"sor substeps=8\" ..."]),
     "by_step": Entry("docs/stability.md", stability.by_step, False, ["pbstudy stability --setting quick sor --dt 0.0001 ... 0.05"]),
     "island_shares": Entry("docs/stability.md", stability.island_shares, False,
-                           ["pbstudy stability --most-work 300000 --setting sor \"sor tolerance=0.01mm\" ...", "pbmpi --scene SCENE --warmup 150 --frames 10 --tolerance 0.01mm"]),
+                           ["pbstudy stability --most-work 300000 --setting sor \"sor tolerance=0.01mm\" ...",
+                            "pbmpi --scene SCENE --warmup 150 --frames 10 --tolerance 0.01mm"]),
     "quiet": Entry("docs/stability.md", stability.quiet, True, ["bench_worlds --quiet SCENE SECONDS 10"]),
     "at_equal_time": Entry("docs/stability.md", stability.at_equal_time, True,
                            ["pbstudy stability --most-work 300000 --setting quick \"sor substeps=20\" ..."]),
@@ -63,8 +63,10 @@ ENTRIES = {
     "paper_instructions": Entry("docs/paper.md", paper.instructions, True, ["jobs/paper.sh"]),
     "paper_prediction": Entry("docs/paper.md", paper.prediction, True, ["jobs/paper.sh --prediction"]),
     "paper_nothing": Entry("docs/paper.md", paper.nothing, False, ["jobs/paper.sh --without-clock"]),
-    "engines_fronts": Entry("docs/engines.md", engines.fronts, True, ["pbstudy accuracy --stepper quick direct sor bullet mujoco ...", "pbreport engines accuracy.h5"]),
-    "engines_own": Entry("docs/engines.md", engines.own, False, ["pbstudy accuracy --stepper quick direct sor bullet mujoco ...", "pbreport engines accuracy.h5"]),
+    "engines_fronts": Entry("docs/engines.md", engines.fronts, True,
+                            ["pbstudy accuracy --stepper quick direct sor bullet mujoco ...", "pbreport engines accuracy.h5"]),
+    "engines_own": Entry("docs/engines.md", engines.own, False,
+                         ["pbstudy accuracy --stepper quick direct sor bullet mujoco ...", "pbreport engines accuracy.h5"]),
     "engines_map": Entry("docs/engines.md", engines.hard_map, False,
                          [f"pbstudy stability --most-work {engines.MOST_WORK} --setting {' '.join(engines.MAP)}", "pbreport engines stability.h5"]),
     "engines_can": Entry("docs/engines.md", engines.can, False, ["pbreport engines accuracy.h5 stability.h5"]),

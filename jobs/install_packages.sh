@@ -13,7 +13,7 @@ package_packages=(dpkg-dev file gzip help2man valgrind)
 test_packages=(libgtest-dev libgmock-dev libbenchmark-dev libbullet-dev libmujoco-dev python3 python3-pandas python3-mpi4py
   python3-matplotlib python3-selenium
   chromium chromium-driver hdf5-tools slurm-wlm munge procps shellcheck binutils doxygen qemu-user-static groff man-db
-  bash-completion fish zsh debootstrap)
+  bash-completion fish zsh debootstrap python3-autopep8 flake8 eslint node-v8-compile-cache)
 
 gate_packages=(clang clang-format clang-tidy libclang-rt-14-dev g++-aarch64-linux-gnu)
 

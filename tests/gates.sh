@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # The gates that a change passes beside the tests, packages included: `tests/gates.sh` runs all, `tests/gates.sh NAME...` some of
 #   format    clang-format leaves every source as it is
+#   python    autopep8 leaves every source in Python as it is, and flake8 finds nothing in it (.flake8)
+#   js        ESLint finds nothing in the scripts of pages, their layout included (tests/gates/eslint.json)
 #   avx       no AVX instruction outside the packs that are compiled for it (needs the build of tests/run.sh)
 #   clang     clang++ builds pbmpi without a warning; it has the golden hashes
 #   headers   every source of the programs includes what it needs: it compiles alone, without headers parsed ahead
@@ -13,6 +15,16 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 format() {
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
+}
+
+python() {
+  git ls-files -z '*.py' | xargs -0 autopep8 --diff --exit-code
+  git ls-files -z '*.py' | xargs -0 flake8
+}
+
+# Only Debian's own Node.js looks for Debian's modules by itself.
+js() {
+  git ls-files -z '*.js' | NODE_PATH=/usr/share/nodejs xargs -0 eslint --no-eslintrc --config tests/gates/eslint.json --format unix
 }
 
 avx() {
@@ -87,11 +99,11 @@ threads() {
 }
 
 gates=("$@")
-[[ ${#gates[@]} -gt 0 ]] || gates=(format avx clang headers arm64 tidy sanitize threads)
+[[ ${#gates[@]} -gt 0 ]] || gates=(format python js avx clang headers arm64 tidy sanitize threads)
 jobs/install_packages.sh --gates
 for gate in "${gates[@]}"; do
   case $gate in
-    format | avx | clang | headers | arm64 | tidy | sanitize | threads) ;;
+    format | python | js | avx | clang | headers | arm64 | tidy | sanitize | threads) ;;
     *) echo "$0: there is no gate '$gate'; see its head" >&2; exit 2 ;;
   esac
   echo "gate $gate: begins at $(date +%T)"

@@ -48,7 +48,7 @@ def fronts():
         for point in engine["nature_front"]:
             rows.append([scene["scene"], f"`{engine['engine']}`", point["setting"].replace(", dt 0.01 s", ""),
                          programs.digits(1e3 * point["frame_time_s"]["worst"]), *(programs.millimetres(point[name]) for name in
-                                                                               ("nature_error_m", "own_error_m", "joint_gap_m"))])
+                                                                                  ("nature_error_m", "own_error_m", "joint_gap_m"))])
     return programs.table(["scene", "engine", "setting", "worst frame [ms]", "error: nature [mm]", "error: own solution [mm]", "joint gap [mm]"], rows)
 
 
@@ -57,7 +57,7 @@ def own():
     for scene, engine in engines_of_scenes():
         solution = engine["own_solution"]
         rows.append([scene["scene"], f"`{engine['engine']}`", *(programs.millimetres(solution[name]) for name in
-                                                               ("from_nature_m", "from_fewer_iterations_m", "noise_m")),
+                                                                ("from_nature_m", "from_fewer_iterations_m", "noise_m")),
                      f"{engine['settings']}", f"{engine['not_finite']}, {engine['felled']}"])
     return programs.table(["scene", "engine", "from nature [mm]", "from itself with a quarter of the iterations [mm]", "noise [mm]",
                            "settings", "not finite, fell at rest"], rows)

@@ -88,7 +88,7 @@ def scene_of(name, of_scene):
     for run in of_scene:
         by_label.setdefault(label_of(run), []).append(run)
     require(REFERENCE in by_label, f"{name}: no file has a run of quick with 20 iterations, which the others are held against; "
-                                        "record one")
+            "record one")
     reference = by_label[REFERENCE][0]
     floor = [runs.pbreport("diff", run.path, reference.path)["drift"] for run in by_label.pop(FLOOR, [])]
     labels = [REFERENCE, *(label for label in by_label if label != REFERENCE)]

@@ -38,7 +38,6 @@ class Refusals(ProgramTest):
         return ["--scene", self.write("scene.toml", text)]
 
 
-
 class BadInput(Refusals):
     def test_unknown_scene_names_the_nearest(self):
         self.refused(3, ["--scene", "100CrSq"], "100CrSq", "100CrSk")
@@ -173,7 +172,6 @@ class NumbersAndTimes(Refusals):
         self.refused(2, self.scene(GOOD_SCENE + "copies = 2147483647\nspacing = [2, 0, 0]\n"), "scene.toml:11:", "a million")
         wall = '[[actor]]\nname = "wall"\ntype = "wall"\nposition = [9, 0, 0]\nlength = 1e9\nheight = 2\nblock = [0.1, 0.5, 0.5]\n'
         self.refused(2, self.scene(GOOD_SCENE + wall), "scene.toml:11:", "wall", "a million blocks")
-
 
     def test_numbers_beyond_what_a_solver_can_carry(self):
         """Their products are infinite: energies, momenta, inertias."""

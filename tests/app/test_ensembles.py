@@ -5,7 +5,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness import PBMPI, ProgramTest
+from harness import ProgramTest
 
 TABLE = """car.speed,ground.material.mu,human1.height,world.gravity
 12.5,0.3,,

@@ -12,8 +12,8 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 JOBS = os.path.join(SOURCE, "jobs")
 sys.path[:0] = [JOBS, os.path.join(SOURCE, "tests", "app")]
 
-import figure3
-from harness import PATH
+import figure3  # noqa: E402
+from harness import PATH  # noqa: E402
 
 
 def sections(page):

@@ -5,7 +5,6 @@ import os
 import sys
 import unittest
 
-import h5py
 import numpy as np
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -133,8 +132,8 @@ class Siconos(ProgramTest):
         problem = self.problem()
         matrices, vectors, solution = fclib_export.whole(problem)
         M, H, G = matrices["M"], matrices["H"], matrices["G"]
-        v, r, l = solution["v"], solution["r"], solution["l"]
-        self.assertLess(np.abs(M @ v - H @ r - G @ l - vectors["f"]).max(), 1e-9)
+        v, r, multipliers = solution["v"], solution["r"], solution["l"]
+        self.assertLess(np.abs(M @ v - H @ r - G @ multipliers - vectors["f"]).max(), 1e-9)
         self.assertLess(np.abs(G.T @ v + vectors["b"]).max(), 1e-9)
         W, q = problem.condensed()
         self.assertLess(np.abs(solution["u"] - (W @ r + q)).max(), 1e-9)

@@ -4,7 +4,6 @@ import os
 import random
 import unittest
 
-import pbvalue
 from pbvalue import ToolTest, total
 
 KERNELS = os.environ["PBMPI_KERNELS"]
@@ -58,7 +57,7 @@ class Hits(ToolTest):
         draw = random.Random(7)
         values = [round(draw.gauss(0, 1)) / 4 for _ in range(2000)]
         for options, settings in (((), {}), (("--confidence-max=7", "--confidence-use=1", "--confidence-up=3", "--confidence-down=2"),
-                                            {"ceiling": 7, "use": 1, "up": 3, "down": 2})):
+                                             {"ceiling": 7, "use": 1, "up": 3, "down": 2})):
             report, arrived = self.move("doubles", values, *options)
             self.assertEqual(counts(report, "fp_load"), last_value_hits(values, **settings)[0])
             self.assertEqual(arrived, values, "exact verification leaves every value")

@@ -14,7 +14,7 @@ from pbvalue import BIN, ToolTest, total
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 sys.path.insert(0, os.path.join(SOURCE, "jobs"))
 
-import figure3
+import figure3  # noqa: E402
 
 PBMPI, SINGLE = os.path.join(BIN, "pbmpi"), os.path.join(BIN, "pbmpi_ode_single")
 OPTIONS = ("--scene", "2-Cars", "--stepper", "quick", "--no-output", "--report", "json")

@@ -84,7 +84,8 @@ class Study(ToolTest):
 
     def check_report(self):
         text = self.report()
-        for word in (*BARS, "noise floor", "Hits of floating-point results by engine", "quick double", "The paper's statements", "What other processors would change"):
+        for word in (*BARS, "noise floor", "Hits of floating-point results by engine", "quick double", "The paper's statements",
+                     "What other processors would change"):
             self.assertIn(word, text)
         data = json.loads(self.report("--json"))
         self.assertAlmostEqual(data["budget_s"], 1 / 300)

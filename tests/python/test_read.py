@@ -200,7 +200,6 @@ class Refused(Files):
             file.attrs["version"] = np.array([2, 0])
         check(ValueError, "layout has version 2.x, and this pbmpi reads 1.x", self.path("new.h5"))
 
-
     def test_what_files_need_is_named_where_it_is_not_there(self):
         self.write("h5py.py", "raise ImportError('none here')\n")
         code = "import pbmpi; pbmpi.Batch('CrashSk', 1)\ntry: pbmpi.read('run.h5')\nexcept ImportError as error: print(error)"

@@ -5,7 +5,6 @@ are run by the shell, others (to install, to build) are not. A text block is wha
 """
 import contextlib
 import io
-import os
 import re
 import subprocess
 

@@ -21,6 +21,7 @@ GROWS = ("hard/rest/pyramid30_small",)
 # A step takes MuJoCo seconds to tens of seconds.
 SLOW = (*GROWS, "hard/rest/Battle2", "hard/rest/Battle2_humans", "hard/rest/Environ", "hard/rest/pyramid15", "hard/rest/wall400", "Battle2")
 
+
 class Cases(harness.ProgramTest):
     def cases(self):
         listed = self.run_command([harness.PBMPI, "--list-scenes"]).stdout

@@ -150,7 +150,8 @@ class Engines(ProgramTest):
                                        "--output", f"{engine}.stability.h5", "--poses", "0", "--progress", "never"])
             self.assertEqual(result.returncode, 0, result.stderr)
             result = self.run_command([PBSTUDY, "accuracy", "--scene", "2-Cars", "--stepper", engine, "--iterations", "5", "20", "--frames",
-                                       "2", "--repeats", "1", "--floor-seeds", "1", "--nature-steps", "24", "--rest-seconds", "0", "--estimates", "0", "--output",
+                                       "2", "--repeats", "1", "--floor-seeds", "1", "--nature-steps", "24", "--rest-seconds", "0", "--estimates", "0",
+                                       "--output",
                                        f"{engine}.accuracy.h5", "--progress", "never"])
             self.assertEqual(result.returncode, 0, result.stderr)
 

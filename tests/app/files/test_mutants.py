@@ -1,7 +1,7 @@
 """Thousands of slightly wrong files: none ends a reader by a signal, in MPI_ABORT or bad_alloc, or in a wrong result.
 
-usage: test_mutants.py [--mutants N]: N scenes, and a third of that of each other kind. A mutant depends on its number alone, and a failure names it. What once failed stands
-in the folder mutants beside this file, one file a case, and is tried each time."""
+usage: test_mutants.py [--mutants N]: N scenes, and a third of that of each other kind. A mutant depends on its number alone, and a failure names it. What once
+failed stands in the folder mutants beside this file, one file a case, and is tried each time."""
 import glob
 import os
 import random
@@ -69,7 +69,6 @@ def mutated_bytes(draw, data):
     else:
         del data[at:]
     return bytes(data)
-
 
 
 class Mutants(ProgramTest):

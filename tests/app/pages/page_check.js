@@ -95,7 +95,8 @@
       const back = over([...pixel.slice(0, 3), pixel[3] / 255], behind);
       const found = contrast(over(channels(colour), back), back);
       if (found < 4.5) report('contrast', `${short(text)} in a chart has ${found.toFixed(2)}, wants 4.5`);
-      visible.push({text, element: canvas, left: place.left + box.left, right: place.left + box.right, top: place.top + box.top, bottom: place.top + box.bottom, exact: true});
+      visible.push({text, element: canvas, left: place.left + box.left, right: place.left + box.right,
+        top: place.top + box.top, bottom: place.top + box.bottom, exact: true});
     }
   }
 
@@ -120,7 +121,8 @@
   for (const element of document.querySelectorAll('body *')) {
     const style = styleOf(element);
     const wide = scrolls(style, 'X') && element.scrollWidth > element.clientWidth + 1, high = scrolls(style, 'Y') && element.scrollHeight > element.clientHeight + 1;
-    if ((wide || high) && element.checkVisibility() && element.tabIndex < 0) report('keyboard', `<${element.tagName.toLowerCase()} class="${element.className}"> scrolls, but has no focus`);
+    if ((wide || high) && element.checkVisibility() && element.tabIndex < 0)
+      report('keyboard', `<${element.tagName.toLowerCase()} class="${element.className}"> scrolls, but has no focus`);
   }
 
   const charts = typeof Chart === 'undefined' ? [] : Object.values(Chart.instances);
@@ -131,7 +133,8 @@
     chart.data.datasets.forEach((dataset, index) => {
       const meta = chart.getDatasetMeta(index);
       const seen = [dataset.borderColor, ...(meta.type === 'line' || dataset.showLine ? [] : [dataset.backgroundColor])].flat().filter(Boolean);
-      if (Math.max(0, ...seen.map((colour) => contrast(over(channels(colour), back), back))) < 3) report('contrast', `${short(dataset.label)} in chart ${name} is hardly seen`);
+      if (Math.max(0, ...seen.map((colour) => contrast(over(channels(colour), back), back))) < 3)
+        report('contrast', `${short(dataset.label)} in chart ${name} is hardly seen`);
       if (meta.type !== 'bar' || meta.hidden) return;
       for (const bar of meta.data) {
         const lying = chart.options.indexAxis === 'y';
@@ -152,8 +155,9 @@
       const axis = chart.options.indexAxis === 'y' ? {x: 'y', y: 'x'}[band.axis || 'y'] : band.axis || 'y';
       const scale = chart.scales[axis];
       const off = band.to < scale.min ? 'below' : band.from > scale.max ? 'above' : '';
-      if (off && !key.some((entry) => entry.startsWith(band.label) && entry.endsWith(`${off} the scale`))) report('scale', `${short(band.label)} of chart ${name} lies ${off} it, and the key does not say so`);
+      if (off && !key.some((entry) => entry.startsWith(band.label) && entry.endsWith(`${off} the scale`)))
+        report('scale', `${short(band.label)} of chart ${name} lies ${off} it, and the key does not say so`);
     }
   }
   return problems;
-})()
+})();

@@ -45,7 +45,7 @@ class Accuracy(ProgramTest):
             if not name.startswith("frame_time"):
                 self.assertEqual(column.tobytes(), three[name].tobytes(), name)
         self.assertTrue((one["frame_time_worst"] >= one["frame_time_median"]).all())
-        self.assertTrue((one["frame_time_median"]> 0).all())
+        self.assertTrue((one["frame_time_median"] > 0).all())
         setting = one["kind"] == b"setting"
         relax = one["law"] == b"soft"  # a sweep that pushes nothing out
         visits = one["rows"] * (one["iterations"] + relax) * one["substeps"] * one["steps_per_frame"]

@@ -12,8 +12,8 @@ import unittest
 import h5py
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-import harness
-from harness import ProgramTest, mpirun
+import harness  # noqa: E402
+from harness import ProgramTest, mpirun  # noqa: E402
 
 harness.TIMEOUT_S = 1200  # 64 ranks on two cores
 MIB = 2**20

@@ -73,7 +73,8 @@ files.replace(sys.argv[1], parts(), None)
 
     def test_a_signal_leaves_no_unfinished_file(self):
         with tempfile.TemporaryDirectory() as folder:
-            ended = subprocess.run([sys.executable, "-c", self.PROGRAM, os.path.join(folder, "out.csv")], env={**os.environ, "PYTHONPATH": str(SOURCE / "src/app")},
+            ended = subprocess.run([sys.executable, "-c", self.PROGRAM, os.path.join(folder, "out.csv")],
+                                   env={**os.environ, "PYTHONPATH": str(SOURCE / "src/app")},
                                    timeout=60)
             self.assertEqual((ended.returncode, os.listdir(folder)), (-signal.SIGTERM, []))
 

@@ -234,7 +234,9 @@ def actor_section(c):
         rows.append([str(c.actors[actor][0]), c.actors[actor][1], f"{drift.rms:.3g}", f"{drift.max:.3g}",
                      *(f"{one.max:.3g}" if one and one.count else "" for one in own)])
     header = ["world", "actor", "drift rms [m]", "largest [m]", *(f"run's largest {spoken(kind)} [{unit}]" for kind, unit in CONSTRAINTS.items())]
-    text = f"The {MOST_ACTORS} of {len(order)} actors that are farthest off; --output FILE has all." if len(order) > MOST_ACTORS else "Those that are farthest off first."
+    text = "Those that are farthest off first."
+    if len(order) > MOST_ACTORS:
+        text = f"The {MOST_ACTORS} of {len(order)} actors that are farthest off; --output FILE has all."
     return Section("By actor", text, tables=[Table("Actors", header, rows)], shown_in=(PAGE,))
 
 

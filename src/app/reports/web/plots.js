@@ -69,7 +69,9 @@ pb.framePlot = (plots, title, text, datasets, {y = {}, bands = []} = {}) => {
       plugins: {
         legend: {display: datasets.length > 1},
         pbmpi: {cursor: true, bands: [...(plots.num_warmup > 0 ? [pb.warmupBand(plots)] : []), ...bands]},
-        tooltip: {callbacks: {title: (items) => `frame ${items[0].raw.x}${plots.per_bin > 1 ? ` to ${Math.min(last, items[0].raw.x + plots.per_bin - 1)}` : ''}`, label: number}},
+        tooltip: {callbacks: {
+          title: (items) => `frame ${items[0].raw.x}${plots.per_bin > 1 ? ` to ${Math.min(last, items[0].raw.x + plots.per_bin - 1)}` : ''}`,
+          label: number}},
       },
       scales: {
         x: {type: 'linear', min: plots.first_frame, max: last, title: {display: true, text: 'frame'},
@@ -138,7 +140,8 @@ pb.plotCounts = (plots, name, band) => {
 // Energy, momentum, gap and penetration: what a simulation should keep, and where it does not.
 pb.plotInvariants = (plots) => {
   const titled = (text, more) => ({title: {display: true, text}, ...more});
-  if (plots.energy) pb.plotBand(plots, 'Energy', 'Kinetic and potential energy of a world [J], at the end of each frame', plots.energy, titled('J', {beginAtZero: false}));
+  if (plots.energy) pb.plotBand(plots, 'Energy', 'Kinetic and potential energy of a world [J], at the end of each frame', plots.energy,
+      titled('J', {beginAtZero: false}));
   if (plots.linear_momentum) {
     pb.plotBand(plots, 'Momentum', 'Length of the linear momentum of a world [kg m/s], at the end of each frame', plots.linear_momentum, titled('kg m/s'));
   }
@@ -146,7 +149,8 @@ pb.plotInvariants = (plots) => {
     pb.plotBand(plots, 'Angular momentum', 'Length of the angular momentum of a world about the origin [kg m\u00b2/s], at the end of each frame',
                 plots.angular_momentum, titled('kg m\u00b2/s'));
   }
-  if (plots.joint_gap_mm) pb.plotBand(plots, 'Joint gap', 'Largest gap of a joint of a world [mm], at the end of each frame', plots.joint_gap_mm, titled('mm', {suggestedMax: 1e-3}));
+  if (plots.joint_gap_mm) pb.plotBand(plots, 'Joint gap', 'Largest gap of a joint of a world [mm], at the end of each frame', plots.joint_gap_mm,
+      titled('mm', {suggestedMax: 1e-3}));
   if (plots.max_penetration_mm) {
     pb.plotBand(plots, 'Penetration', 'Deepest contact of a world [mm], in the last step of each frame', plots.max_penetration_mm, titled('mm', {suggestedMax: 1e-3}));
   }

@@ -32,7 +32,10 @@ pb.markOffScale = (config, axis, scale) => {
       turns[index] = axis === 'y' ? 180 : -90;
       return {...point, [axis]: scale.min, label: `${point.label || dataset.label} (${point[axis]}: below the scale)`};
     });
-    if (turns.some((turn) => turn !== 0)) Object.assign(dataset, {keyShape: dataset.keyShape || shapes.find((_, i) => turns[i] === 0), pointStyle: shapes, pointRotation: turns});
+    if (turns.some((turn) => turn !== 0)) {
+      const keyShape = dataset.keyShape || shapes.find((_, i) => turns[i] === 0);
+      Object.assign(dataset, {keyShape, pointStyle: shapes, pointRotation: turns});
+    }
   }
 };
 
