@@ -127,8 +127,7 @@ std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
         paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
     }
   };
-  for (const char* option : {"file", "scene", "config", "parameters", "floor"})
-    add(option, false);
+  for (const char* option : {"file", "scene", "config", "parameters", "floor"}) add(option, false);
   for (const char* option : {"output", "checkpoint", "html", "csv", "xdmf", "write-config"})
     add(option, true);
   return paths;

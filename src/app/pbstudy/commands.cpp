@@ -4,6 +4,11 @@
 #include <iostream>
 
 #include "app/common/options.h"
+#include "app/pbstudy/accuracy/accuracy_options.h"
+#include "app/pbstudy/calibrate/calibrate_options.h"
+#include "app/pbstudy/effects/effects_options.h"
+#include "app/pbstudy/prediction/prediction_options.h"
+#include "app/pbstudy/stability/stability_options.h"
 #include "app/pbstudy/study/study_runner.h"
 #include "core/text.h"
 
@@ -18,16 +23,25 @@ std::string unknown_study(const std::string& word) {
          (nearest.empty() ? "see pbstudy --help" : "did you mean " + nearest + "?");
 }
 
+bool asks_for_help(const std::vector<std::string>& args) {
+  return std::ranges::any_of(help_arguments(args).args,
+                             [](const std::string& arg) { return arg == "--help" || arg == "-h"; });
+}
+
 }  // namespace
 
 const std::vector<StudyCommand>& study_commands() {
   static const std::vector<StudyCommand> commands = {
-      {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy},
-      {"calibrate", "what the harness costs beside the physics, for forecasts of more ranks", run_calibrate},
-      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects},
+      {"accuracy", "what accuracy costs in time: errors and times of many settings", run_accuracy,
+       accuracy_manual},
+      {"calibrate", "what the harness costs beside the physics, for forecasts of more ranks", run_calibrate,
+       calibrate_manual},
+      {"effects", "what each effect costs, and what leaving it out does to the result", run_effects,
+       effects_manual},
       {"prediction", "what value prediction gains a frame, and what it does to the result (Valgrind)",
-       run_prediction},
-      {"stability", "which settings hold the cases that are known to be hard", run_stability},
+       run_prediction, prediction_manual},
+      {"stability", "which settings hold the cases that are known to be hard", run_stability,
+       stability_manual},
   };
   return commands;
 }
@@ -63,8 +77,10 @@ core::ExitCode run_pbstudy(const mpi::Communicator& comm, const std::vector<std:
   if (args.front() == "--version") return say(version_line("pbstudy") + "\n");
   for (const StudyCommand& command : study_commands()) {
     if (command.name != args.front()) continue;
+    const std::vector<std::string> rest(args.begin() + 1, args.end());
+    if (asks_for_help(rest)) return say(help_of(command.manual(), rest));
     try {
-      return command.run(comm, {args.begin() + 1, args.end()});
+      return command.run(comm, rest);
     } catch (const StudyStopped& stopped) {  // on all ranks
       if (comm.is_root()) std::cerr << "pbstudy: " << stopped.message << std::endl;
       return core::ExitCode::stopped;

@@ -15,6 +15,7 @@ struct StudyCommand {
   std::string_view name;
   std::string_view meaning;  ///< one line for --help
   Study* run;
+  Manual (*manual)();
 };
 
 const std::vector<StudyCommand>& study_commands();

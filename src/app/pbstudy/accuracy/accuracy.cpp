@@ -1,4 +1,3 @@
-#include <iostream>
 #include <optional>
 
 #include <fmt/core.h>
@@ -68,10 +67,6 @@ StudyContent content(const AccuracyOptions& options, const std::vector<StudyScen
 
 core::ExitCode run_accuracy(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const AccuracyOptions options = parse_accuracy_options(args);
-  if (options.help) {
-    if (comm.is_root()) std::cout << help_of(accuracy_manual(), args) << std::flush;
-    return core::ExitCode::done;
-  }
   StudyRunner runner(comm, "accuracy", options);
   const std::vector<AccuracyCase> cases = make_cases(runner.scenes(), options);
   runner.open_output();

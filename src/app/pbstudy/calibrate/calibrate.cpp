@@ -95,10 +95,6 @@ io::TableFile file_of(const Provenance& provenance, const CalibrateOptions& opti
 
 core::ExitCode run_calibrate(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const CalibrateOptions options = parse_calibrate_options(args);
-  if (options.help) {
-    if (comm.is_root()) std::cout << help_of(calibrate_manual()) << std::flush;
-    return core::ExitCode::done;
-  }
   std::unique_ptr<io::TableWriter> writer;
   mpi::agree_on_errors(comm, [&] {
     if (comm.is_root()) writer = std::make_unique<io::TableWriter>(options.output);

@@ -44,7 +44,6 @@ Manual calibrate_manual() {
 CalibrateOptions parse_calibrate_options(const std::vector<std::string>& args) {
   const po::variables_map values = parse_command_line(args, calibrate_options_description());
   CalibrateOptions options;
-  options.help = values.count("help") != 0;
   options.common = common_options(values);
   options.command_line = "pbstudy calibrate";
   for (const std::string& arg : args) options.command_line += " " + arg;

@@ -11,7 +11,6 @@
 namespace pbmpi::app {
 
 struct CalibrateOptions {
-  bool help = false;
   int repeats = 9;            ///< rounds in which each case is timed once
   int largest_ranks = 16384;  ///< the most ranks for which root's work is timed
   std::uint64_t seed = 1;     ///< for the order of cases in a round

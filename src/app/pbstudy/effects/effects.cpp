@@ -1,5 +1,3 @@
-#include <iostream>
-
 #include "app/common/engine_texts.h"
 #include "app/pbstudy/effects/effects_runner.h"
 #include "app/pbstudy/study/studies.h"
@@ -55,10 +53,6 @@ StudyContent content(const std::vector<StudyScene>& scenes, const std::vector<Ef
 
 core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const EffectsOptions options = parse_effects_options(args);
-  if (options.help) {
-    if (comm.is_root()) std::cout << help_of(effects_manual(), args) << std::flush;
-    return core::ExitCode::done;
-  }
   StudyRunner runner(comm, "effects", options);
   const std::vector<EffectCase> cases = make_effect_cases(runner.scenes(), options);
   runner.open_output();

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -104,10 +103,6 @@ StudyContent content_of(const json& plan, const std::vector<PredictionCase>& cas
 
 core::ExitCode run_prediction(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const PredictionOptions options = parse_prediction_options(args);
-  if (options.help) {
-    if (comm.is_root()) std::cout << help_of(prediction_manual(), args) << std::flush;
-    return core::ExitCode::done;
-  }
   require_tool();
   StudyRunner runner(comm, "prediction", options);
   std::optional<PredictionSteps> steps;

@@ -63,7 +63,6 @@ PredictionOptions parse_prediction_options(const std::vector<std::string>& args)
   const po::variables_map values = parse_command_line(args, options_description());
   PredictionOptions options;
   static_cast<StudyOptions&>(options) = study_options(values, "pbstudy prediction", args);
-  if (options.help) return options;
   options.thresholds = list<double>(values, "threshold", {1e-6, 1e-8, 1e-10, 1e-12});
   for (const double threshold : options.thresholds)
     core::require_input(threshold > 0 && std::isfinite(threshold), "--threshold: it must be above 0");

@@ -1,4 +1,3 @@
-#include <iostream>
 #include <set>
 
 #include "app/pbstudy/stability/stability_table.h"
@@ -24,10 +23,6 @@ Outcomes run_cases(const StabilityOptions& options, const std::vector<StabilityC
 
 core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<std::string>& args) {
   const StabilityOptions options = parse_stability_options(args);
-  if (options.help) {
-    if (comm.is_root()) std::cout << help_of(stability_manual(), args) << std::flush;
-    return core::ExitCode::done;
-  }
   StudyRunner runner(comm, "stability", options);
   const std::vector<StabilityCase> cases = make_stability_cases(runner.scenes(), options);
   runner.open_output();

@@ -77,7 +77,6 @@ po::options_description what_to_write(const char* default_output) {
 StudyOptions study_options(const po::variables_map& values, const std::string& program,
                            const std::vector<std::string>& args) {
   StudyOptions options;
-  options.help = values.count("help") != 0;
   options.common = common_options(values);
   options.command_line = program;
   for (const std::string& arg : args) options.command_line += " " + arg;

@@ -21,7 +21,6 @@ inline constexpr const char* one_case_a_rank =
 inline constexpr const char* spoils_times = " More ranks than cores spoil the times.";
 
 struct StudyOptions {
-  bool help = false;
   std::vector<std::string> scenes;
   SceneOverrides overrides;
   int repeats = 1;      ///< how often each frame is timed
