@@ -1,13 +1,14 @@
 #include "app/common/options.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <array>
 #include <sstream>
 
 #include "app/common/version.h"
 #include "app/manual/manual.h"
 #include "core/error.h"
 #include "core/system/input_file.h"
+#include "core/system/mounts.h"
 #include "core/text.h"
 #include "stepping/step_options.h"
 
@@ -84,6 +85,7 @@ po::variables_map parse_command_line(const std::vector<std::string>& args,
     require_no_stray_word(values, description);
     if (values.count("config") != 0) {  // boost keeps the first value stored
       const auto file = values["config"].as<std::string>();
+      core::require_answers(std::array{core::NamedPath{"--config", file, false}});
       where = file + ": ";
       std::istringstream lines(core::read_input_file(file, "--config wants a file of 'name = value' lines"));
       po::store(po::parse_config_file(lines, description), values);
@@ -122,9 +124,7 @@ std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
     if (const auto* one = boost::any_cast<std::string>(&value)) names = {*one};
     if (const auto* many = boost::any_cast<std::vector<std::string>>(&value)) names = *many;
     for (const std::string& name : names) {
-      // A scene may be one that the program brings.
-      if (!name.empty() && (option != "scene" || std::filesystem::exists(name)))
-        paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
+      if (!name.empty()) paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
     }
   };
   for (const char* option : {"file", "scene", "config", "parameters", "floor"}) add(option, false);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +16,8 @@
 #include "app/pbmpi/options/saved_options.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "core/system/mounts.h"
+#include "core/system/paths.h"
 #include "engines/shared_scene.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/frame/frame_driver.h"
@@ -159,6 +162,7 @@ Work new_work(const mpi::Communicator& comm, const Options& options) {
 
 Work resumed_work(const mpi::Communicator& comm, const std::vector<std::string>& args, Options& options) {
   const std::string path = *options.run.resume;
+  core::require_answers(std::array{core::NamedPath{"--resume", path, false}});
   io::Checkpoint checkpoint = load_checkpoint(comm, path, std::cerr);
   Work work;
   work.source = scene_of(comm, checkpoint, path, options.run.scene.value_or(""));

@@ -6,9 +6,23 @@
 #include "app/pbreport/python_report.h"
 #include "app/pbreport/run/options.h"
 #include "app/pbreport/run/report.h"
+#include "core/system/mounts.h"
+#include "core/system/paths.h"
 
 namespace pbmpi::app {
 namespace {
+
+/// Any word may name a file, which is looked into to find out what is to be reported.
+void require_answers_to(const std::vector<std::string>& args) {
+  std::vector<core::NamedPath> paths;
+  paths.reserve(args.size());
+  for (const std::string& arg : args) {
+    const std::size_t begin = arg.starts_with('-') ? arg.find('=') + 1 : 0;  // --html=FILE
+    const bool is_option = begin == 0 && arg.starts_with('-');
+    if (!is_option && begin < arg.size()) paths.push_back({"the path", arg.substr(begin), false});
+  }
+  core::require_answers(paths);
+}
 
 /// Runs "pbreport [report] FILE", whose help is the program's.
 core::ExitCode run_first_command(const std::vector<std::string>& args, std::ostream& out) {
@@ -56,6 +70,7 @@ Manual pbreport_manual() {
 }
 
 core::ExitCode run_pbreport(const std::vector<std::string>& args, std::ostream& out) {
+  require_answers_to(args);
   const auto& commands = report_commands();
   const std::string first = args.empty() ? "" : args.front();
   const auto named = std::ranges::find(commands, first, &ReportCommand::name);

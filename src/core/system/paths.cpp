@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/system/mounts.h"
 
 namespace pbmpi::core {
 namespace {
@@ -13,6 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 
 bool is_stream(const struct stat& status) { return !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode); }
+
+bool is_there(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
 
 /// Where a file would be created; if the file system refuses the name, e.g. because it is too long, the name
 /// as written.
@@ -48,11 +54,14 @@ bool is_same_file(const std::string& a, const std::string& b) {
 }
 
 void require_separate(std::span<const NamedPath> paths) {
+  require_answers(paths);
   for (std::size_t i = 0; i < paths.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const NamedPath& written = paths[i].written ? paths[i] : paths[j];
       const NamedPath& other = paths[i].written ? paths[j] : paths[i];
-      if (!written.written || !is_same_file(written.path, other.path)) continue;
+      if (!written.written || !(other.written || is_there(other.path)) ||
+          !is_same_file(written.path, other.path))
+        continue;
       const std::string both =
           written.option + " " + written.path + ": that is the file of " + other.option + " " + other.path;
       throw InputError(both + (other.written ? ", which is written, too; name another file"

@@ -21,7 +21,8 @@ struct NamedPath {
   bool written;
 };
 
-/// Throws InputError if one file is to be written twice, or both read and written.
+/// Throws InputError if one file is to be written twice, or both read and written (what is not there, such as
+/// a scene that the program brings, is not read), or if the file system of one does not answer (mounts.h).
 void require_separate(std::span<const NamedPath> paths);
 
 }  // namespace pbmpi::core

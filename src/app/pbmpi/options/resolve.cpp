@@ -1,4 +1,5 @@
 /// Resolves options and the scene's defaults to a run, and refuses impossible ones.
+#include <array>
 #include <filesystem>
 #include <regex>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include "app/pbmpi/options/options.h"
 #include "app/pbmpi/options/run_options.h"
 #include "core/error.h"
+#include "core/system/mounts.h"
 #include "engines/optional_engines.h"
 #include "stepping/names.h"
 #include "stepping/option_values.h"
@@ -191,6 +193,8 @@ RunSpec resolve(const Options& options, const scenes::Scene& scene, const Resume
   spec.effects = defaults.effects;
   resolve_worlds(options.given.contains("replicas"), num_rows, spec);
   spec.stepper = resolve_step(options.step, spec, defaults);
+  if (!from.output.empty())
+    core::require_answers(std::array{core::NamedPath{"--resume: the run of", from.output, false}});
   spec.output = resolve_output(options.run, scene, from);
   spec.checkpoint = resolve_checkpoint(spec, scene, from);
   if (spec.output && !spec.no_xdmf) spec.sidecar = sidecar_of(*spec.output);
