@@ -64,16 +64,14 @@ double TableReader::checked_number(std::string_view key, const toml::node& node,
   // node.value<double>() returns nothing for integers that no double represents exactly.
   const double value =
       node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
-  const auto refuse = [&](const char* rule) {
-    fail_at(node, core::in_quotes(key) + " is " + to_text(value) + "; it must be " + rule);
+  const auto refuse = [&](std::string_view rule) {
+    fail_at(node, core::in_quotes(key) + " is " + to_text(value) + "; it must be " + std::string(rule));
   };
   if (std::isnan(value) || (range == Range::finite && !std::isfinite(value))) refuse("finite");
   if (sign == Sign::positive && value <= 0) refuse("above 0");
   if (sign == Sign::non_negative && value < 0) refuse("at least 0");
-  if (std::isfinite(value) && std::abs(value) > core::largest_number)
-    refuse("from -1e30 to 1e30, for the solver to carry its products");
-  if (sign == Sign::positive && value < core::smallest_number)
-    refuse("at least 1e-30, for the solver to carry its products");
+  if (const std::string_view bound = core::bound_against(value, sign == Sign::positive); !bound.empty())
+    refuse(bound);
   return value;
 }
 

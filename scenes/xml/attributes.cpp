@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/quantity.h"
 #include "core/text.h"
 
@@ -65,8 +66,9 @@ double Attributes::number(std::string_view name, Range range, std::optional<doub
   if (values.empty() && !fallback) fail("it has no " + core::in_quotes(name) + "; give a number");
   const double value = values.empty() ? *fallback : values.front();
   if (range == Range::positive && !(value > 0)) fail(name, core::in_quotes(name) + " must be above 0");
-  if (range == Range::positive && value < core::smallest_number)
-    fail(name, core::in_quotes(name) + " must be at least 1e-30, for the solver to carry its products");
+  if (const std::string_view bound = core::bound_against(value, range == Range::positive); !bound.empty())
+    fail(name,
+         core::in_quotes(name) + " is " + core::number_text(value) + "; it must be " + std::string(bound));
   if (range == Range::non_negative && !(value >= 0))
     fail(name, core::in_quotes(name) + " must be at least 0");
   return value;
@@ -210,9 +212,9 @@ double Attributes::to_number(const Attribute& attribute, std::string_view word) 
   const auto [stop, error] = std::from_chars(digits.data(), end, value);
   if (error != std::errc() || stop != end || !std::isfinite(value))
     fail(attribute.name, core::in_quotes(word) + " is not a finite number");
-  if (std::abs(value) > core::largest_number)
+  if (const std::string_view bound = core::bound_against(value, false); !bound.empty())
     fail(attribute.name,
-         core::in_quotes(word) + " is not from -1e30 to 1e30, for the solver to carry its products");
+         core::in_quotes(attribute.name) + " is " + std::string(word) + "; it must be " + std::string(bound));
   return value;
 }
 

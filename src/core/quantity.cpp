@@ -27,6 +27,14 @@ bool is_plausible_bare(double value, const Measure& measure) {
 
 }  // namespace
 
+std::string_view bound_against(double value, bool is_positive) {
+  static_assert(largest_number == 1e30 && smallest_number == 1e-30);
+  if (std::isfinite(value) && std::abs(value) > largest_number)
+    return "from -1e30 to 1e30, for the solver to carry its products";
+  if (is_positive && value < smallest_number) return "at least 1e-30, for the solver to carry its products";
+  return "";
+}
+
 double read_quantity(std::string_view text, const std::string& what, const Measure& measure) {
   const std::string given = what + " " + std::string(text);
   double number = 0;

@@ -13,6 +13,11 @@ namespace pbmpi::core {
 /// numbers, e.g. the cube of an inertia or an energy times a mass, stay finite in double precision.
 inline constexpr double largest_number = 1e30, smallest_number = 1e-30;
 
+/// What a number must be that is outside of these bounds, e.g. "from -1e30 to 1e30, for the solver to carry
+/// its products", as messages say after "it must be"; empty for a number within them, and for infinity.
+/// `is_positive`: whether it is above 0 by its meaning, so that smallest_number bounds it, too.
+std::string_view bound_against(double value, bool is_positive);
+
 struct Unit {
   std::string_view name;
   double factor = 1;  ///< the unit in SI units

@@ -61,5 +61,13 @@ TEST(Quantity, as_text_is_read_back_bit_for_bit) {
   EXPECT_EQ(quantity_text(0, tolerance), "0");
 }
 
+TEST(Quantity, bounds_what_a_solver_can_carry) {
+  EXPECT_EQ(bound_against(-1e30, false), "");
+  EXPECT_EQ(bound_against(0, false), "");
+  EXPECT_EQ(bound_against(1e-30, true), "");
+  EXPECT_TRUE(bound_against(-1e31, false).starts_with("from -1e30 to 1e30"));
+  EXPECT_TRUE(bound_against(1e-31, true).starts_with("at least 1e-30"));
+}
+
 }  // namespace
 }  // namespace pbmpi::core
