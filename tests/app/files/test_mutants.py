@@ -23,6 +23,9 @@ NASTY = [b"0", b"-1", b"1e300", b"-1e-300", b"nan", b"inf", b"-inf", b"214748364
          b"[]", b"[0]", b"[[0, 1], [0, 2]]", b"{}", b"1979-05-27", b"'x'", b"", b"1_000", b"0.1.2", b"-0.0", b"1e-9", b"100000"]
 CONFIG = (b"frames = 4\nwarmup = 1\niterations = 3\nsubsteps = 2\nlaw = soft\nstepper = sor\nseed = 7\nbudget = 3ms\n"
           b"decompose = worlds\neffects = +drag\nprecision = single\nsteps-per-frame = 2\ndt = 0.005\nrecord-every = 2\n")
+# Tables of parameters, by what their names end in.
+TABLES = {"csv": b'car.speed,ground.material.mu,human1.height,car.position\n5,0.3,,"[0, 0, 1]"\n10,0.3,1.6,\n10,0.9,1.7,"[1, 2, 1.5]"\n',
+          "toml": b"[[world]]\ncar.speed = 5\nhuman1.height = 1.6\n[[world]]\ncar.position = [1, 2, 1.5]\nground.material.mu = 0.3\n"}
 BAD_ENDS = re.compile("MPI_ABORT|bad_alloc|what\\(\\)|std::|Segmentation|runtime error|AddressSanitizer")
 
 
@@ -107,13 +110,17 @@ class Mutants(ProgramTest):
 
     def try_scene(self, text, what):
         self.save("mutant.toml", text)
-        described = self.ends_well([PBMPI, "--scene", "mutant.toml", "--describe"], what)
+        self.try_worlds(["--scene", "mutant.toml"], what)
+
+    def try_worlds(self, args, what):
+        described = self.ends_well([PBMPI, *args, "--describe"], what)
         bodies = re.search(rb"worlds: (\d+), bodies: (\d+)", described.stdout)
         if described.returncode != 0 or int(bodies[2]) > 2000:
             return
         # The run may fail over numbers that are not finite (exit code 1), and must say so.
-        result = self.run_command([PBMPI, "--scene", "mutant.toml", "--replicas", "1", "--iterations", "2", "--warmup", "0",
-                                   "--frames", "1", "--steps-per-frame", "2", "--no-output"], errors="replace", env=self.alone)
+        one_world = [] if "--parameters" in args else ["--replicas", "1"]
+        result = self.run_command([PBMPI, *args, *one_world, "--iterations", "2", "--warmup", "0", "--frames", "1",
+                                   "--steps-per-frame", "2", "--no-output"], errors="replace", env=self.alone)
         self.assertIn(result.returncode, (0, 1, 2), f"{what}: {result.stderr}")
         self.assertIsNone(BAD_ENDS.search(result.stderr), f"{what}: {result.stderr}")
         self.assertTrue(result.returncode == 0 or "pbmpi: " in result.stderr, what)
@@ -134,6 +141,13 @@ class Mutants(ProgramTest):
         for path in paths:
             with open(path, "rb") as file:
                 self.try_scene(file.read(), os.path.basename(path))
+
+    def test_tables_of_parameters(self):
+        for number in range(MUTANTS // 3):
+            draw = random.Random(f"table {number}")
+            end = draw.choice(sorted(TABLES))
+            self.save(f"table.{end}", mutated_text(draw, TABLES[end]))
+            self.try_worlds(["--scene", "CrashSk", "--parameters", f"table.{end}"], f"table {number}")
 
     def try_config(self, text, what):
         self.save("mutant.cfg", text)
