@@ -4,7 +4,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 jobs/install_packages.sh --packages
-cmake --preset release "$@"
 rm -f build/packages/*.deb
-cmake --build --preset release --target packages
+jobs/build.sh release "$@" -- --target packages
 ls -l build/packages/*.deb

@@ -10,7 +10,7 @@
 
 namespace pbmpi::solver {
 
-/// The widest instruction set that this machine has.
+/// The widest instruction set that this build and this machine have; `automatic` where there is none.
 stepping::Simd best_simd();
 bool has_simd(stepping::Simd simd);
 

@@ -26,7 +26,8 @@ void require_valid(const stepping::StepperSettings& settings) {
   core::require_input(!law.newton || (is_rigid && law.friction == stepping::Friction::cone),
                       "Newton's method solves rigid rows with cones of friction: it needs --law coulomb");
   core::require_input(has_simd(settings.simd),
-                      "this machine lacks the instruction set asked for with --simd; use auto");
+                      "this machine, or this build (PBMPI_SIMD), lacks the instruction set asked for with "
+                      "--simd; use auto, or build anew with jobs/build.sh");
 }
 
 double most_approach_m(const stepping::StepperSettings& settings) {

@@ -10,7 +10,7 @@
 namespace pbmpi::solver {
 
 /// Throws core::InputError for dt <= 0, iterations or substeps < 1, a warm start outside 0 to 1, Newton's
-/// method over rows that are not rigid, or an instruction set that this machine lacks.
+/// method over rows that are not rigid, or an instruction set that this machine or build lacks.
 void require_valid(const stepping::StepperSettings& settings);
 
 /// Do the steps of a run start from the forces that the last one ended with?
