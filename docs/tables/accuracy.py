@@ -14,8 +14,8 @@ DRAWN = ("CrashSk", "CrashWa", "Fight")
 LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 5, 1),
          ("sor", 2, 7, 1), ("sor", 4, 3, 1), ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
 FINE = "10cm"
-HELD = {"sor": ("sor", 1, 14, 1), f"sor approach={FINE}": ("sor", 1, 14, 1), **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1)
-                                     for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
+HELD = {"sor": ("sor", 1, 14, 1), f"sor approach={FINE}": ("sor", 1, 14, 1),
+        **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1) for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
 
 
 def nature_file(folder):
@@ -106,8 +106,8 @@ def held():
         verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
     of_setting = [verdicts[settings == name] for name in dict.fromkeys(settings)]
     counts = [[np.count_nonzero(verdicts == verdict) for verdict in stability.VERDICTS] for verdicts in of_setting]
-    return programs.table(["hard cases", *stability.VERDICTS], [[setting_name(line) + (f", `--approach {FINE}`" if "approach" in setting else ""), *count]
-                           for (setting, line), count in zip(HELD.items(), counts)])
+    names = [setting_name(line) + (f", `--approach {FINE}`" if "approach" in setting else "") for setting, line in HELD.items()]
+    return programs.table(["hard cases", *stability.VERDICTS], [[name, *count] for name, count in zip(names, counts)])
 
 
 def fine():

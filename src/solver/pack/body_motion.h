@@ -63,9 +63,14 @@ void BodyMotion<T>::apply_gravity(const Batch& batch, Scalar h) {
   }
   if (worlds_.torque.empty()) return;
   for (int slot = batch.first_slot; slot < batch.end_slot; ++slot) {
-    Twist<V>& twist = worlds_.bodies.twists[slot];
-    const Vec3L<V> turning = worlds_.bodies.bodies[slot].inv_inertia * worlds_.torque[slot];
-    twist.angular = twist.angular + turning * T::broadcast(h);
+    const Vec3L<V>& torque = worlds_.torque[slot];
+    const V acts = dot(torque, torque), none = T::broadcast(0);
+    if (!T::any(acts)) continue;
+    Vec3L<V>& angular = worlds_.bodies.twists[slot].angular;
+    const Vec3L<V> turned = angular + worlds_.bodies.bodies[slot].inv_inertia * torque * T::broadcast(h);
+    // A sum with 0 would change -0 in the other lanes.
+    angular = {acts > none ? turned.x : angular.x, acts > none ? turned.y : angular.y,
+               acts > none ? turned.z : angular.z};
   }
 }
 
