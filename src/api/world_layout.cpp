@@ -55,7 +55,7 @@ WorldLayout::WorldLayout(const model::Model& model) {
       axes_.push_back({joint, axis});
     }
   }
-  for (const model::JointAxis& at : model::axes_of(model)) {
+  for (const analysis::JointAxis& at : analysis::axes_of(model)) {
     const model::Joint& joint = model.joints[static_cast<std::size_t>(at.joint)];
     joint_axes_.push_back({name_of(joint, at.axis), model::traits_of(joint.kind).slides});
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/joint_coordinates.h"
+#include "analysis/joint_coordinates.h"
 #include "pbmpi/batch.h"
 
 namespace pbmpi::api {
@@ -20,7 +20,7 @@ class WorldLayout {
   std::span<const std::string> body_names() const { return body_names_; }
   std::span<const Motor> motors() const { return motors_; }
   /// [num_motors] the axis that each motor drives.
-  std::span<const model::JointAxis> axes() const { return axes_; }
+  std::span<const analysis::JointAxis> axes() const { return axes_; }
   std::span<const JointAxis> joint_axes() const { return joint_axes_; }
 
   /// Throws core::InputError, naming the world and what differs, unless it has the same bodies, motors and
@@ -30,7 +30,7 @@ class WorldLayout {
  private:
   std::vector<std::string> body_names_;
   std::vector<Motor> motors_;
-  std::vector<model::JointAxis> axes_;
+  std::vector<analysis::JointAxis> axes_;
   std::vector<JointAxis> joint_axes_;
 };
 

@@ -215,7 +215,7 @@ void WorldSet::reset(std::span<const bool> mask, std::uint64_t seed, std::span<c
 }
 
 void WorldSet::aim(std::size_t index, std::size_t motor, double velocity) {
-  const model::JointAxis& axis = layout_.axes()[motor];
+  const analysis::JointAxis& axis = layout_.axes()[motor];
   steppers_.of(ids_[index]).set_motor_velocity(ids_[index], axis.joint, axis.axis, velocity);
   worlds_[index].aims.velocity[motor] = velocity;
   worlds_[index].aims.since[motor] = steps_[index];
@@ -247,7 +247,7 @@ void WorldSet::set_targets(std::span<const double> positions) {
 }
 
 double WorldSet::hold_rate(std::size_t index, std::size_t motor) const {
-  const model::JointAxis& at = layout_.axes()[motor];
+  const analysis::JointAxis& at = layout_.axes()[motor];
   const double rate =
       effects::motor_before(*worlds_[index].model, steps_[index], at.joint, at.axis).hold_rate;
   core::require_input(rate > 0, "the motor " + core::in_quotes(layout_.motors()[motor].name) +
@@ -263,7 +263,7 @@ const BatchJoints& WorldSet::joints() {
   joints_.velocity.resize(num_worlds() * num_axes);
   for (std::size_t i = 0; i < num_worlds(); ++i) {
     World& world = worlds_[i];
-    if (!world.coordinates) world.coordinates = std::make_shared<model::JointCoordinates>(*world.model);
+    if (!world.coordinates) world.coordinates = std::make_shared<analysis::JointCoordinates>(*world.model);
     const model::State& state = state_of(i);
     world.coordinates->measure(state, std::span(joints_.position).subspan(i * num_axes, num_axes));
     for (std::size_t k = 0; k < num_axes; ++k) {
@@ -324,13 +324,13 @@ std::vector<stepping::BodyLoad> WorldSet::loads_now(std::size_t index) const {
   const model::State& state = state_of(index);
   std::vector<stepping::BodyLoad> loads = world.loads;
   loads.resize(static_cast<std::size_t>(layout_.num_bodies()));
-  const std::vector<model::JointAxis> axes =
-      world.efforts.empty() ? std::vector<model::JointAxis>{} : model::axes_of(*world.model);
+  const std::vector<analysis::JointAxis> axes =
+      world.efforts.empty() ? std::vector<analysis::JointAxis>{} : analysis::axes_of(*world.model);
   for (std::size_t k = 0; k < axes.size(); ++k) {
     const auto joint_index = static_cast<std::size_t>(axes[k].joint);
     if (world.efforts[k] == 0 || state.is_broken(joint_index)) continue;
     const model::Joint& joint = world.model->joints[joint_index];
-    const model::Vec3 effort = world.efforts[k] * model::axis_direction(state, joint, axes[k].axis);
+    const model::Vec3 effort = world.efforts[k] * analysis::axis_direction(state, joint, axes[k].axis);
     const auto a = static_cast<std::size_t>(joint.body_a), b = static_cast<std::size_t>(joint.body_b);
     const bool has_b = joint.body_b != model::no_body;
     if (model::traits_of(joint.kind).slides) {
@@ -355,7 +355,7 @@ void WorldSet::push(std::size_t index) {
 }
 
 double WorldSet::aim_now(std::size_t index, std::size_t motor) const {
-  const model::JointAxis& axis = layout_.axes()[motor];
+  const analysis::JointAxis& axis = layout_.axes()[motor];
   const Aims& aims = worlds_[index].aims;
   if (std::isnan(aims.velocity[motor])) return unaimed;
   const auto& events = worlds_[index].model->events;

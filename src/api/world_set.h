@@ -59,7 +59,8 @@ class WorldSet {
     bool measured = false;                       ///< has it stepped since its state was last set?
     std::vector<stepping::BodyLoad> loads = {};  ///< [num_bodies] set from outside; empty: none
     std::vector<double> efforts = {};            ///< [num_joint_axes]; empty: none
-    std::shared_ptr<const model::JointCoordinates> coordinates = nullptr;  ///< null until they are asked for
+    std::shared_ptr<const analysis::JointCoordinates> coordinates =
+        nullptr;  ///< null until they are asked for
   };
 
   std::size_t num_worlds() const { return ids_.size(); }

@@ -68,7 +68,7 @@ STANDS_ON = {
     "io/repair": ["io/run"],
     "src/engines": ["src/ode", "src/bullet", "src/mujoco", "src/solver/worlds", "src/solver/spaces", "scenes", "mpi/comm"],
     "src/api/include/pbmpi": [],
-    "src/api": ["src/api/include/pbmpi", "src/engines", "mpi/frame", "mpi/balance"],
+    "src/api": ["src/api/include/pbmpi", "src/engines", "src/analysis", "mpi/frame", "mpi/balance"],
     "src/api/python": ["src/api/include/pbmpi"],
     "src/app/manual": ["src/core"],
     "src/app/common": ["src/app/manual", "mpi/worlds", "mpi/spaces", "src/estimate", "src/engines"],

@@ -32,6 +32,7 @@ TEST(StepOptions, a_value_written_as_text_is_read_back_bit_for_bit) {
   settings.iterations = 7;
   settings.substeps = 3;
   settings.tolerance_m = 1.0 / 17;
+  settings.approach_m = 1.0 / 13;
   settings.precision = Precision::single;
   settings.simd = Simd::avx2;
   settings.threads = 3;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "app/pbreport/commands.h"
@@ -36,8 +38,12 @@ TEST(ReportOptions, refuses_what_it_does_not_know) {
 }
 
 TEST(ReportOptions, never_writes_over_the_file_it_reads) {
-  EXPECT_NE(refusal({"a.h5", "--html", "a.h5"}).find("not written over"), std::string::npos);
-  EXPECT_NE(refusal({"a.h5", "--xdmf", "a.h5"}).find("not written over"), std::string::npos);
+  const std::string file = testing::TempDir() + "pbmpi_read.h5";
+  std::ofstream(file) << "read";
+  EXPECT_NE(refusal({file, "--html", file}).find("not written over"), std::string::npos);
+  EXPECT_NE(refusal({file, "--xdmf", file}).find("not written over"), std::string::npos);
+  std::filesystem::remove(file);
+  EXPECT_EQ(refusal({file, "--html", file}), "") << "that it is missing is told when it is read";
 }
 
 TEST(ReportCommands, help_names_every_command_and_option) {

@@ -1,4 +1,4 @@
-#include "model/joint_coordinates.h"
+#include "analysis/joint_coordinates.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,10 @@
 
 #include "support/models.h"
 
-namespace pbmpi::model {
+namespace pbmpi::analysis {
 namespace {
+
+using namespace model;
 
 constexpr double rounding = 1e-12;
 
@@ -80,4 +82,4 @@ TEST(JointCoordinates, of_a_universal_joint_are_the_angles_about_both_axes) {
 }
 
 }  // namespace
-}  // namespace pbmpi::model
+}  // namespace pbmpi::analysis
