@@ -114,7 +114,7 @@ def fine():
     """What it buys and costs where islands in which bodies approach each other far take the step in pieces."""
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "sor", "--law", "soft", "--precision", "double", "--substeps", "14",
-                                           "--dt", "0.01", "--approach", "0", FINE, "--estimates", "0", "--repeats", "3", *ONLY_SETTINGS)
+                                           "--dt", "0.01", "--approach", "0", FINE, "--estimates", "0", "--repeats", "3", "--rest-seconds", "0")
     found = {(case["scene"], case["approach"] > 0): case for case in cases if case["kind"] == "setting"}
 
     def errors(scene, is_fine):

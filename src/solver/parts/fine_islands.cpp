@@ -39,7 +39,8 @@ FineIslands::FineIslands(const model::Model& model, const stepping::StepperSetti
     }
   }
   static_tree_.set(boxes);
-  state_.resize(model.num_bodies());
+  state_ = model::initial_state(model);
+  for (int body = 0; body < model.num_bodies(); ++body) stop(body);
 }
 
 bool FineIslands::can_be(const stepping::StepperSettings& settings) {
@@ -153,10 +154,12 @@ void FineIslands::collide(Pack& pack, int world, std::span<const int> bodies, do
   std::ranges::sort(pairs_);
   pack.collide_pairs(world, pairs_, contacts);
   add_fast(bodies, piece_s, contacts);
-  for (const int body : bodies) {
-    state_.velocity[static_cast<std::size_t>(body)].setZero();
-    state_.angular_velocity[static_cast<std::size_t>(body)].setZero();
-  }
+  for (const int body : bodies) stop(body);
+}
+
+void FineIslands::stop(int body) {
+  state_.velocity[static_cast<std::size_t>(body)].setZero();
+  state_.angular_velocity[static_cast<std::size_t>(body)].setZero();
 }
 
 }  // namespace pbmpi::solver
