@@ -1,8 +1,7 @@
 #include "effects/approach.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstddef>
 
 #include "geometry/box.h"
 #include "geometry/geometry.h"
@@ -29,16 +28,6 @@ core::Vec3 from_core(const model::Geom& geom, const model::BodyPose& pose, const
   return outside;
 }
 
-geometry::Box box_of(const model::Geom& geom, const model::BodyPose& pose) {
-  const std::array<double, 3> half = geometry::half_extents(geom, pose.rotation);
-  geometry::Box box;
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.min[k] = pose.position[k] - half[k];
-    box.max[k] = pose.position[k] + half[k];
-  }
-  return box;
-}
-
 }  // namespace
 
 double approach_to_static(const core::Vec3& centre, const core::Vec3& way, const model::Geom& other,
@@ -56,12 +45,12 @@ bool may_meet(const model::Geom& geom, const model::BodyPose& pose, const core::
     const double height = normal.dot(core::Vec3(pose.position) - core::Vec3(other_pose.position));
     return height + normal.dot(way) <= geometry::half_extent(geom, pose.rotation, normal) + room;
   }
-  geometry::Box path = box_of(geom, pose);
+  geometry::Box path = geometry::box_at(geom, pose);
   for (std::size_t k = 0; k < 3; ++k) {
     path.min[k] += std::min(0.0, way[static_cast<int>(k)]);
     path.max[k] += std::max(0.0, way[static_cast<int>(k)]);
   }
-  return path.overlaps(box_of(other, other_pose).grown(room));
+  return path.overlaps(geometry::box_at(other, other_pose).grown(room));
 }
 
 }  // namespace pbmpi::effects

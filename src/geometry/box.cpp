@@ -9,7 +9,10 @@ namespace pbmpi::geometry {
 Box geom_box(const model::Geom& geom, const model::BodyPose& body) {
   const core::Pose& local = geom.local;
   const bool centred = local.position.isZero(0) && local.orientation.w == 1;  // geom_pose() is then the same
-  const model::BodyPose pose = centred ? body : geom_pose(geom, body);
+  return box_at(geom, centred ? body : geom_pose(geom, body));
+}
+
+Box box_at(const model::Geom& geom, const model::BodyPose& pose) {
   const std::array<double, 3> half = half_extents(geom, pose.rotation);
   Box box;
   for (std::size_t k = 0; k < 3; ++k) {

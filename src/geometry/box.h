@@ -45,6 +45,8 @@ struct Box {
 /// needed by some 1e-6 of the coordinates: boxes must not separate geoms that a collider in single precision
 /// finds touching.
 Box geom_box(const model::Geom& geom, const model::BodyPose& body);
+/// The same from the geom's own pose.
+Box box_at(const model::Geom& geom, const model::BodyPose& pose);
 
 /// The box around a ball swept along its path. It is larger than needed by 1e-6 of its coordinates, so that
 /// rounding in later computations within it does not matter.
