@@ -73,8 +73,8 @@ constexpr std::array<StepOption, 11> options = {{
      .member = &Settings::approach_m,
      .placeholder = "LENGTH",
      .meaning =
-         "sor: islands in which bodies come nearer to each other by more than this in a step take it in four "
-         "or eight pieces, with collision detection in each, e.g. 10cm; 0: none does; default: 0",
+         "sor: islands in which bodies come nearer to each other by more than this in a step take it in up "
+         "to eight pieces, with collision detection in each, e.g. 10cm; 0: none does; default: 0",
      .needs = &Traits::has_substeps,
      .measure = &core::length_with_unit,
      .in_short = "approach * m",

@@ -60,11 +60,17 @@ class ApparentMasses {
     Sym3L<W> inertia;
     for (W Sym3L<W>::*part : parts<W>()) inertia.*part = (own_inertia.*part + share_of_inertia.*part) * half;
     lent.inertia = narrowed(inertia);
-    const Sym3L<V> inv_inertia = narrowed(inverse(inertia));
-    const auto is_lent = is_touched > T::broadcast(0);
-    body.inv_mass = is_lent ? 1 / lent.mass : body.inv_mass;
-    for (V Sym3L<V>::*part : parts<V>())
-      body.inv_inertia.*part = is_lent ? inv_inertia.*part : body.inv_inertia.*part;
+    lent.shown_inv_inertia = narrowed(inverse(inertia));
+    show(lent, body);
+  }
+  /// Lends the same apparent masses once more, after the bodies have moved.
+  void lend_again(BodyLanes<T>& bodies) {
+    for (Lent& lent : lent_) {
+      BodyLane<V>& body = bodies.bodies[lent.slot];
+      lent.inv_mass = body.inv_mass;
+      lent.inv_inertia = body.inv_inertia;
+      show(lent, body);
+    }
   }
   /// Puts the bodies' own masses back.
   void give_back(BodyLanes<T>& bodies) const {
@@ -114,9 +120,16 @@ class ApparentMasses {
     V is_touched;
     V inv_mass;
     Sym3L<V> inv_inertia;
-    V mass;            ///< apparent
-    Sym3L<V> inertia;  ///< apparent, world frame at the step's start
+    V mass;                      ///< apparent
+    Sym3L<V> inertia;            ///< apparent, world frame at the step's start
+    Sym3L<V> shown_inv_inertia;  ///< its inverse
   };
+  static void show(const Lent& lent, BodyLane<V>& body) {
+    const auto is_lent = lent.is_touched > T::broadcast(0);
+    body.inv_mass = is_lent ? 1 / lent.mass : body.inv_mass;
+    for (V Sym3L<V>::*part : parts<V>())
+      body.inv_inertia.*part = is_lent ? lent.shown_inv_inertia.*part : body.inv_inertia.*part;
+  }
   std::vector<Lent> lent_;
 };
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/contacts/contact_lists.h"
+#include "solver/contacts/contact_groups.h"
 #include "solver/newton/row_system.h"
 #include "solver/pack/world_lanes.h"
 
@@ -25,7 +25,7 @@ class NewtonLanes {
   NewtonLanes(Scalar cfm, const ContactParameters<Scalar>& contacts) : cfm_(cfm), parameters_(contacts) {}
 
   /// Changes impulses and the twists in the slots.
-  void solve(WorldLanes<T>& worlds, ContactLists<T>& contacts);
+  void solve(WorldLanes<T>& worlds, ContactGroups<T>& contacts);
 
  private:
   using Rows = std::array<SystemRow, 3>;
@@ -44,7 +44,7 @@ class NewtonLanes {
   };
   enum class Law { held, bounded };
 
-  void collect(const WorldLanes<T>& worlds, ContactLists<T>& contacts);
+  void collect(const WorldLanes<T>& worlds, ContactGroups<T>& contacts);
   template <class Solver, class Point>
   Touch touch(const ContactSlot<T>& slot, Point& point, const Manifold& manifold, int lane) const;
   template <class Solver, class Row>
@@ -94,7 +94,7 @@ class NewtonLanes {
 };
 
 template <class T>
-void NewtonLanes<T>::solve(WorldLanes<T>& worlds, ContactLists<T>& contacts) {
+void NewtonLanes<T>::solve(WorldLanes<T>& worlds, ContactGroups<T>& contacts) {
   body_at_.assign(static_cast<std::size_t>(worlds.places.num_slots() * T::num_lanes), -1);
   for (int world = 0; world < worlds.num_worlds(); ++world) {
     for (int body = 0; body < worlds.model(world).num_bodies(); ++body) {
@@ -107,7 +107,7 @@ void NewtonLanes<T>::solve(WorldLanes<T>& worlds, ContactLists<T>& contacts) {
 }
 
 template <class T>
-void NewtonLanes<T>::collect(const WorldLanes<T>& worlds, ContactLists<T>& contacts) {
+void NewtonLanes<T>::collect(const WorldLanes<T>& worlds, ContactGroups<T>& contacts) {
   touches_.assign(static_cast<std::size_t>(worlds.num_worlds()), {});
   contacts.change_slots([&](const ContactSlot<T>& slot, auto* points, const Manifold* manifolds) {
     using Point = std::remove_reference_t<decltype(*points)>;

@@ -12,6 +12,7 @@
 #include "model/contact.h"
 #include "model/model.h"
 #include "model/state.h"
+#include "solver/contacts/renewed_contacts.h"
 #include "solver/layout/packed_world.h"
 #include "solver/layout/row_law.h"
 #include "stepping/observables.h"
@@ -89,8 +90,10 @@ class Pack {
                              std::vector<model::Contact>& contacts) = 0;
   using Contacts = std::span<const model::SolvedContacts>;
   /// Takes one step with the contacts of each world, which must stay valid during the call. Adds the seconds
-  /// spent on rows, solve and integrate to `times`.
-  virtual void step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) = 0;
+  /// spent on rows, solve and integrate to `times`. `renewed`: null, or islands of active bodies that get
+  /// contacts anew in the step, none of which are in `contacts`.
+  virtual void step(Contacts contacts, const StepParameters& parameters, RenewedContacts* renewed,
+                    core::PhaseTimes& times) = 0;
   /// How far a world's last step was from the solution of its constraints; StepParameters::residuals only.
   virtual stepping::Residuals residuals(int world) const = 0;
   /// What a joint of an active body exerted in the last substep.

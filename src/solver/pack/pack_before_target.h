@@ -41,6 +41,7 @@
 #include "solver/collide/pair_table.h"
 #include "solver/contacts/contact_colors.h"
 #include "solver/contacts/manifold_order.h"
+#include "solver/contacts/renewed_contacts.h"
 #include "solver/contacts/sweep_order.h"
 #include "solver/joints/articulation_tree.h"
 #include "solver/joints/broken_joints.h"

@@ -71,8 +71,9 @@ class PackLanes final : public Pack {
                      std::vector<model::Contact>& contacts) override {
     if (collider_) collider_->collide_pairs(worlds_, world, pairs, contacts);
   }
-  void step(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) override {
-    step_.run(contacts, parameters, times);
+  void step(Contacts contacts, const StepParameters& parameters, RenewedContacts* renewed,
+            core::PhaseTimes& times) override {
+    step_.run(contacts, parameters, renewed, times);
   }
   stepping::Residuals residuals(int world) const override { return step_.residuals(world); }
 

@@ -37,6 +37,8 @@ class StepChunks {
       cells_.unite(places_->cell(manifold.a.slot), places_->cell(manifold.b.slot));
     added_.push_back(manifold);
   }
+  /// Bodies in these two slots belong to one chunk.
+  void unite(int slot_a, int slot_b) { cells_.unite(places_->cell(slot_a), places_->cell(slot_b)); }
   /// Cuts the manifolds and these batches, which are borrowed, into chunks.
   void cut(std::span<const Batch> batches) {
     all_batches_ = batches;
@@ -55,13 +57,14 @@ class StepChunks {
         manifolds_, first_manifold_);
   }
   int size() const { return num_chunks_; }
+  /// The chunk of the bodies in a slot.
+  int chunk_at(int slot) const { return chunk_of_cell_[static_cast<std::size_t>(places_->cell(slot))]; }
   Chunk operator[](int chunk) const {
     if (num_chunks_ == 1) return {all_batches_, added_};
     return {part(batches_, first_batch_, chunk), part(manifolds_, first_manifold_, chunk)};
   }
 
  private:
-  int chunk_at(int slot) const { return chunk_of_cell_[static_cast<std::size_t>(places_->cell(slot))]; }
   template <class Item, class ChunkOf>
   void sort(std::span<const Item> items, ChunkOf chunk_of, std::vector<Item>& sorted,
             std::vector<std::size_t>& first) {

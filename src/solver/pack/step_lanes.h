@@ -5,7 +5,7 @@
 
 #include "core/clock.h"
 #include "core/random.h"
-#include "solver/contacts/contact_lists.h"
+#include "solver/contacts/contact_groups.h"
 #include "solver/joints/joint_trees.h"
 #include "solver/pack/body_motion.h"
 #include "solver/pack/contact_twists.h"
@@ -35,7 +35,8 @@ class StepLanes {
         laws_(laws, passes, {}) {}
 
   /// Pack::step().
-  void run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times);
+  void run(Contacts contacts, const StepParameters& parameters, RenewedContacts* renewed,
+           core::PhaseTimes& times);
 
   double h() const { return static_cast<double>(laws_.h()); }  ///< [s] length of the last step's substeps
   stepping::Residuals residuals(int world) const { return residuals_[static_cast<std::size_t>(world)]; }
@@ -45,11 +46,18 @@ class StepLanes {
 
   using Chunk = typename StepChunks<T>::Chunk;
 
-  void begin(Contacts contacts, const StepParameters& parameters);
-  void find_chunks(Contacts contacts);
-  void touch_trees(const Manifold& manifold);
-  void begin_chunk(const Chunk& chunk);
-  void take(const Chunk& chunk, core::LapTimer& timer);
+  void begin(Contacts contacts, const StepParameters& parameters, RenewedContacts* renewed);
+  void find_chunks(Contacts contacts, const RenewedContacts* renewed);
+  void join(const RenewedContacts& renewed);
+  void touch_trees(LanePlace at) {
+    if (trees_ && at.slot != worlds_.bodies.static_slot) trees_->touch(at);
+  }
+  void begin_chunk(int chunk);
+  bool renew_contacts();
+  void find_twists() {
+    twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
+  }
+  void take(int chunk, core::LapTimer& timer);
   void damp(const Batch& batch) {
     if (passes_.damping) motion_.damp(batch, parameters_.substep_s());
   }
@@ -59,7 +67,8 @@ class StepLanes {
   bool hands_out_forces() const { return remembers() || parameters_.show_forces; }
   void start_step();
   void build_contacts();
-  void start_substep();
+  void build_renewed_contacts();
+  void start_substep(bool renewed);
   void need_slots(const JointLaws<Scalar>& laws);
   void end_twists(const JointLaws<Scalar>& laws) {
     need_slots(laws);
@@ -104,38 +113,66 @@ class StepLanes {
   WorldLanes<T>& worlds_;
   BodyMotion<T> motion_;
   StepChunks<T> chunks_;
-  ContactLists<T> contacts_;  ///< of the current chunk
+  ContactGroups<T> contacts_;  ///< of the current chunk
   ContactTwists<T> twists_;
   std::optional<JointTrees<T>> trees_;  ///< none in a step that solves no joints exactly
   ApparentMasses<T> masses_;            ///< of the current step
   StepParameters parameters_;           ///< of the current step
   StepLaws<T> laws_;                    ///< of the current step
   int substep_ = 0, iteration_ = 0;
+  int renewed_slot_ = -1;  ///< of a body whose contacts are found anew in the step; -1: there is none
   std::vector<stepping::Residuals> residuals_;  ///< [num_worlds] of the last step, if measured
 };
 
 template <class T>
-void StepLanes<T>::find_chunks(Contacts contacts) {
+void StepLanes<T>::find_chunks(Contacts contacts, const RenewedContacts* renewed) {
   chunks_.start(worlds_.places, parameters_.newton || parameters_.residuals);
   if (trees_) trees_->start_step();
   for (int world = 0; world < worlds_.num_worlds(); ++world) {
     model::SolvedContacts solved = contacts[static_cast<std::size_t>(world)];
     if (!hands_out_forces()) solved.forces = {};
-    contacts_.paint_world(
+    contacts_.lasting().paint_world(
         worlds_.model(world).num_bodies(), solved, [&](int body) { return worlds_.moves(world, body); },
         [&](int body) { return worlds_.places.body(world, body); },
         [&](const Manifold& manifold) {
           chunks_.add(manifold);
-          if (trees_) touch_trees(manifold);
+          touch_trees(manifold.a);
+          touch_trees(manifold.b);
         });
   }
+  renewed_slot_ = -1;
+  if (renewed != nullptr) join(*renewed);
   chunks_.cut(worlds_.active_batches());
 }
 
+/// Puts all islands that get contacts anew into one chunk. A step chooses once how it solves the joints: what
+/// contacts will touch counts as touched.
 template <class T>
-void StepLanes<T>::touch_trees(const Manifold& manifold) {
-  trees_->touch(manifold.a);
-  if (manifold.b.slot != worlds_.bodies.static_slot) trees_->touch(manifold.b);
+void StepLanes<T>::join(const RenewedContacts& renewed) {
+  for (int world = 0; world < worlds_.num_worlds(); ++world) {
+    for (std::size_t group = 0; group < renewed.pieces().size(); ++group) {
+      for (const int body : renewed.bodies(group, world)) {
+        const int slot = worlds_.places.body(world, body).slot;
+        if (renewed_slot_ < 0) renewed_slot_ = slot;
+        chunks_.unite(renewed_slot_, slot);
+      }
+      for (const model::Contact& contact :
+           renewed.contacts(group)[static_cast<std::size_t>(world)].contacts) {
+        touch_trees(worlds_.places.body(world, contact.body_a));
+        touch_trees(worlds_.places.body(world, contact.body_b));
+      }
+    }
+    for (const int body : renewed.approaching(world)) touch_trees(worlds_.places.body(world, body));
+  }
+}
+
+/// Finds the contacts of which a piece of the step begins with this substep. True if there may be any.
+template <class T>
+bool StepLanes<T>::renew_contacts() {
+  return contacts_.renew(
+      substep_, parameters_.substeps, laws_.contacts(),
+      [this](int world, int body) { return worlds_.places.body(world, body); },
+      [this](int world) { return worlds_.model(world).num_bodies(); });
 }
 
 template <class T>
@@ -146,6 +183,15 @@ void StepLanes<T>::build_contacts() {
     trees_->lend(masses_, worlds_.bodies);
   }
   contacts_.build(worlds_.bodies, laws_.contacts());
+  masses_.give_back(worlds_.bodies);
+}
+
+/// The bodies' masses in contacts are those of the step.
+template <class T>
+void StepLanes<T>::build_renewed_contacts() {
+  find_twists();
+  masses_.lend_again(worlds_.bodies);
+  contacts_.build_renewed(worlds_.bodies, laws_.contacts());
   masses_.give_back(worlds_.bodies);
 }
 
@@ -182,10 +228,12 @@ void StepLanes<T>::start_step() {
   push_carried();
 }
 
+/// `renewed`: contacts have been found anew.
 template <class T>
-void StepLanes<T>::start_substep() {
+void StepLanes<T>::start_substep(bool renewed) {
   const bool reduces = parameters_.warm_start != 1;
   if (reduces) contacts_.carry(laws_.contacts());
+  if (renewed) build_renewed_contacts();
   look_ahead();
   worlds_.joints.for_each_active_batch([&](const Batch& batch) {
     worlds_.joints.start_rotors(batch, worlds_.bodies);
@@ -355,25 +403,26 @@ void StepLanes<T>::choose_trees(stepping::JointSolver solver) {
 }
 
 template <class T>
-void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters) {
+void StepLanes<T>::begin(Contacts contacts, const StepParameters& parameters, RenewedContacts* renewed) {
   choose_trees(parameters.joint_solver);
   parameters_ = parameters;
   laws_ = {pack_laws_, passes_, parameters};
-  contacts_.start(parameters_.friction == stepping::Friction::patch ? ContactKind::patched
-                                                                    : ContactKind::rough);
+  contacts_.start(
+      parameters_.friction == stepping::Friction::patch ? ContactKind::patched : ContactKind::rough, renewed);
   worlds_.update_active();
   if (passes_.holds_bodies()) worlds_.save_held();
-  find_chunks(contacts);
+  find_chunks(contacts, renewed);
 }
 
 /// Everything before the sweeps of the first substep.
 template <class T>
-void StepLanes<T>::begin_chunk(const Chunk& chunk) {
-  worlds_.joints.activate(chunk.batches);
-  contacts_.clear();
-  for (const Manifold& manifold : chunk.manifolds) contacts_.add(manifold);
-  twists_.find(worlds_, [&](auto visit) { contacts_.for_each_body_slot(visit); });
+void StepLanes<T>::begin_chunk(int chunk) {
+  const Chunk parts = chunks_[chunk];
+  worlds_.joints.activate(parts.batches);
+  contacts_.begin_chunk(parts.manifolds, renewed_slot_ >= 0 && chunks_.chunk_at(renewed_slot_) == chunk);
   substep_ = 0;
+  renew_contacts();
+  find_twists();
   start_step();
 }
 
@@ -392,16 +441,17 @@ void StepLanes<T>::finish_by_newton() {
 }
 
 template <class T>
-void StepLanes<T>::run(Contacts contacts, const StepParameters& parameters, core::PhaseTimes& times) {
+void StepLanes<T>::run(Contacts contacts, const StepParameters& parameters, RenewedContacts* renewed,
+                       core::PhaseTimes& times) {
   core::LapTimer timer(times);
-  begin(contacts, parameters);
-  for (int chunk = 0; chunk < chunks_.size(); ++chunk) take(chunks_[chunk], timer);
+  begin(contacts, parameters, renewed);
+  for (int chunk = 0; chunk < chunks_.size(); ++chunk) take(chunk, timer);
   if (passes_.holds_bodies()) worlds_.restore_held();
   timer.lap(core::Phase::integrate);
 }
 
 template <class T>
-void StepLanes<T>::take(const Chunk& chunk, core::LapTimer& timer) {
+void StepLanes<T>::take(int chunk, core::LapTimer& timer) {
   begin_chunk(chunk);
   timer.lap(core::Phase::rows);
   while (substep_ + 1 < parameters_.substeps) {
@@ -409,7 +459,9 @@ void StepLanes<T>::take(const Chunk& chunk, core::LapTimer& timer) {
     end_substep<false>();
     timer.lap(core::Phase::solve);
     ++substep_;
-    start_substep();
+    const bool renewed = renew_contacts();
+    if (renewed) timer.lap(core::Phase::collide);
+    start_substep(renewed);
     timer.lap(core::Phase::rows);
   }
   end_sweeps();

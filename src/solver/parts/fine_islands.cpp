@@ -9,10 +9,23 @@
 namespace pbmpi::solver {
 namespace {
 
-constexpr int least_pieces = 4, most_pieces = 8;
+constexpr int most_pieces = 8;
 
+/// A power of two: few groups of islands.
 int pieces_for(double approach_m, double most_m) {
-  return approach_m > least_pieces * most_m ? most_pieces : least_pieces;
+  int pieces = 2;
+  while (pieces < most_pieces && approach_m > pieces * most_m) pieces *= 2;
+  return pieces;
+}
+
+/// [m] How far up along an axis the lowest point of a box is.
+double lowest(const geometry::Box& box, const core::Vec3& axis) {
+  double height = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double along = axis[static_cast<Eigen::Index>(k)];
+    height += along * (along > 0 ? box.min[k] : box.max[k]);
+  }
+  return height;
 }
 
 }  // namespace
@@ -32,7 +45,9 @@ FineIslands::FineIslands(const model::Model& model, const stepping::StepperSetti
     if (geom.body != model::no_body) {
       geoms_of_body_[static_cast<std::size_t>(geom.body)].push_back(index);
     } else if (geom.shape == model::Shape::plane) {
-      planes_.push_back(index);
+      const model::BodyPose pose = geometry::geom_pose(geom, geometry::static_pose());
+      const core::Vec3 normal(pose.rotation[2], pose.rotation[5], pose.rotation[8]);
+      planes_.push_back({index, normal, normal.dot(core::Vec3(pose.position))});
     } else {
       static_geoms_.push_back(index);
       boxes.push_back(geometry::geom_box(geom, geometry::static_pose()));
@@ -111,7 +126,9 @@ void FineIslands::find_pairs() {
     }
     static_tree_.for_each_near(
         each->box, [&](int index) { add_pair(each->geom, static_geoms_[static_cast<std::size_t>(index)]); });
-    for (const int plane : planes_) add_pair(each->geom, plane);
+    for (const Plane& plane : planes_) {
+      if (lowest(each->box, plane.normal) <= plane.height) add_pair(each->geom, plane.geom);
+    }
   }
 }
 
@@ -143,10 +160,8 @@ void FineIslands::collide(Pack& pack, int world, std::span<const int> bodies, do
   contacts.clear();
   pairs_.clear();
   pack.store(world, bodies, state_);
-  by_island_.assign(bodies.begin(), bodies.end());
-  std::ranges::sort(by_island_, {}, [&](int body) { return island_[static_cast<std::size_t>(body)]; });
-  for (auto first = by_island_.begin(); first != by_island_.end();) {
-    const auto end = std::find_if(first, by_island_.end(), [&](int body) { return !together(*first, body); });
+  for (auto first = bodies.begin(); first != bodies.end();) {
+    const auto end = std::find_if(first, bodies.end(), [&](int body) { return !together(*first, body); });
     put_boxes({first, end});
     find_pairs();
     first = end;

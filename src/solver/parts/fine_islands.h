@@ -1,6 +1,7 @@
 /// Which islands of a world get collision detection several times a step, and how it finds their contacts.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -22,8 +23,8 @@ namespace pbmpi::solver {
 /// Contacts that are found once a step serve all its substeps. Where bodies approach each other by far in a
 /// step, they have overlapped by then before they are found, or hit at other places than they would: the
 /// islands of such bodies, which approaches (model::Contact::approach) connect as contacts do, take the step
-/// in pieces, each with contacts of its own: four, or eight where one of four would still have an approach of
-/// more than StepperSettings::approach_m.
+/// in pieces, each with contacts of its own: two, four or eight, so that a piece has no approach of more than
+/// StepperSettings::approach_m if eight are enough.
 ///
 /// An island's pieces thus depend on itself alone, and within the step its bodies meet only each other and
 /// what is static.
@@ -42,9 +43,14 @@ class FineIslands {
   /// After a find() that found any: the pieces into which the body's island cuts the step.
   int pieces(int body) const { return pieces_[static_cast<std::size_t>(body)]; }
 
+  /// Sorts bodies of fine islands by island.
+  void sort_by_island(std::vector<int>& bodies) const {
+    std::ranges::stable_sort(bodies, {},
+                             [this](int body) { return island_[static_cast<std::size_t>(body)]; });
+  }
   /// At the start of a piece of `piece_s`: finds the contacts that these bodies, which are whole fine islands
-  /// of the last find(), now have with others of their island and with what is static, in canonical order,
-  /// and the speculative contacts of fast ones.
+  /// of the last find() and sorted by island, now have with others of their island and with what is static,
+  /// in canonical order, and the speculative contacts of fast ones.
   void collide(Pack& pack, int world, std::span<const int> bodies, double piece_s,
                std::vector<model::Contact>& contacts);
 
@@ -67,7 +73,14 @@ class FineIslands {
   const model::Model* model_;
   double most_approach_m_, margin_m_;
   std::vector<std::vector<int>> geoms_of_body_;
-  std::vector<int> static_geoms_, planes_;
+  /// A static plane: it holds what is below `height` along `normal`, world frame.
+  struct Plane {
+    int geom = 0;
+    core::Vec3 normal;
+    double height = 0;  ///< [m]
+  };
+  std::vector<int> static_geoms_;
+  std::vector<Plane> planes_;
   geometry::BoxTree static_tree_;         ///< of static_geoms_
   std::vector<effects::SlowBound> slow_;  ///< [num_bodies]
   std::vector<std::int32_t> broken_in_;   ///< for which rule_ and fast_ hold
@@ -76,7 +89,6 @@ class FineIslands {
   std::vector<int> pieces_, island_;         ///< [num_bodies] an island is its lowest body
   // Scratch of collide().
   model::State state_;  ///< velocities are 0 between calls: other bodies are not fast
-  std::vector<int> by_island_;
   std::vector<GeomBox> boxes_;
   std::vector<model::GeomPair> pairs_;
 };

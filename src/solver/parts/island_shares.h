@@ -38,6 +38,8 @@ class IslandShares {
             std::span<const std::int32_t> broken_in, const model::State& before);
   /// Does any body get another share than the run's?
   bool differ() const { return any_fine_ || any_tall_ || (quiet_ && !quiet_->bodies().empty()); }
+  /// Does any island take the step in pieces?
+  bool any_fine() const { return any_fine_; }
   /// The pieces into which a body's island cuts the step (fine_islands.h); 1: none.
   int pieces(int body) const { return any_fine_ ? fine_->pieces(body) : 1; }
   bool is_quiet(int body) const { return quiet_ && quiet_->contains(body) && pieces(body) == 1; }
@@ -45,6 +47,7 @@ class IslandShares {
   int substeps(int body) const { return any_tall_ ? tall_->substeps(body) : substeps_; }
   /// The bodies in quiet islands, in the order in which they were given.
   std::span<const int> quiet_bodies() const { return quiet_ ? quiet_->bodies() : std::span<const int>(); }
+  void sort_by_island(std::vector<int>& fine_bodies) const { fine_->sort_by_island(fine_bodies); }
   /// FineIslands::collide()
   void collide(Pack& pack, int world, std::span<const int> bodies, double piece_s,
                std::vector<model::Contact>& contacts) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/random.h"
-
 namespace pbmpi::solver {
 namespace {
 
@@ -23,8 +21,8 @@ stepping::Residuals join(const stepping::Residuals& a, const stepping::Residuals
 }  // namespace
 
 bool PartedStep::Part::operator<(const Part& other) const {
-  return std::tuple(!on_trial, pieces, substeps, iterations) <
-         std::tuple(!other.on_trial, other.pieces, other.substeps, other.iterations);
+  return std::tuple(!on_trial, substeps, iterations) <
+         std::tuple(!other.on_trial, other.substeps, other.iterations);
 }
 
 bool PartedStep::Part::is_empty() const {
@@ -34,10 +32,11 @@ bool PartedStep::Part::is_empty() const {
 void PartedStep::begin(std::span<const PartedWorld> worlds, const StepParameters& parameters) {
   worlds_.assign(worlds.begin(), worlds.end());
   parameters_ = parameters;
+  fine_.begin(worlds_);
   contacts_.clear();
-  for (const PartedWorld& world : worlds_) contacts_.push_back(world.contacts);
+  for (int world = 0; world < std::ssize(worlds_); ++world) contacts_.push_back(fine_.others(world));
   parts_.clear();
-  cut_ = has_fine_ = false;
+  cut_ = false;
   has_last_ = true;
   if (has_parts()) sort_bodies();
 }
@@ -57,8 +56,6 @@ void PartedStep::sort_bodies() {
       Part like;
       like.on_trial = world.shares != nullptr && world.shares->is_quiet(body);
       like.substeps = world.shares != nullptr ? world.shares->substeps(body) : parameters_.substeps;
-      like.pieces = world.shares != nullptr ? world.shares->pieces(body) : 1;
-      has_fine_ |= like.pieces > 1;
       like.iterations = world.field != nullptr ? world.field->iterations_of(body) : parameters_.iterations;
       bodies_of(like)[w].push_back(body);
       if (!like.on_trial) continue;
@@ -66,7 +63,7 @@ void PartedStep::sort_bodies() {
       bodies_of(like);
     }
   }
-  if (parts_.size() == 1 && !has_fine_) {
+  if (parts_.size() == 1) {
     parameters_ = parameters_of(parts_.front());
     return;
   }
@@ -97,8 +94,7 @@ std::vector<std::vector<int>>& PartedStep::bodies_of(const Part& like) {
   return fresh.bodies;
 }
 
-/// A spring keeps its number of periods per substep: shorter substeps also bear stiffer springs. The pieces
-/// of a step share its substeps, at least two each.
+/// A spring keeps its number of periods per substep: shorter substeps also bear stiffer springs.
 StepParameters PartedStep::parameters_of(const Part& part) const {
   StepParameters parameters = parameters_;
   const double stiffer = static_cast<double>(part.substeps) / parameters.substeps;
@@ -114,11 +110,6 @@ StepParameters PartedStep::parameters_of(const Part& part) const {
     if (parameters.relax > 0) parameters.relax = std::max(parameters.relax, trial_relax);
   }
   parameters.iterations = part.iterations;
-  if (part.pieces > 1) {
-    parameters.dt_s /= part.pieces;
-    parameters.substeps = std::max(2, part.substeps / part.pieces);
-    parameters.all_substeps = parameters.substeps;
-  }
   return parameters;
 }
 
@@ -128,115 +119,28 @@ void PartedStep::activate(Pack& pack, const Part& part) const {
 
 void PartedStep::take(Pack& pack, core::PhaseTimes& times) {
   if (!cut_) {
-    pack.step(contacts_, parameters_, times);
+    step(pack, parts_.empty() ? Part{} : parts_.front(), parameters_, times);
+    fine_.end();
     return;
-  }
-  if (has_fine_) {
-    fine_.resize(worlds_.size());
-    for (Fine& fine : fine_) fine.ended.clear();
   }
   for (std::size_t p = 0; p + 1 < parts_.size(); ++p) take_part(pack, p, times);
   const Part& last = parts_.back();
   activate(pack, last);
   has_last_ = !last.is_empty();
-  if (has_last_) step(pack, parts_.size() - 1, times);
-  if (has_fine_) end_fine();
+  if (has_last_) step(pack, last, parameters_of(last), times);
+  fine_.end();
 }
 
-/// The bodies of the part are active.
-void PartedStep::step(Pack& pack, std::size_t part, core::PhaseTimes& times) {
-  StepParameters parameters = parameters_of(parts_[part]);
-  if (parts_[part].pieces == 1) {
-    pack.step(contacts_, parameters, times);
-    return;
-  }
-  start_pieces(part);
-  pack.step(piece_, parameters, times);
-  for (int piece = 1; piece < parts_[part].pieces; ++piece) {
-    core::LapTimer timer(times);
-    collide(pack, parts_[part], parameters.dt_s);
-    timer.lap(core::Phase::collide);
-    parameters.order_key = core::mix_key(parameters_.order_key, static_cast<std::uint64_t>(piece), 0);
-    pack.step(piece_, parameters, times);
-  }
-  end_pieces();
-}
-
-bool PartedStep::is_in(std::size_t part, std::size_t world, const model::Contact& contact) const {
-  return seen_[world].part_of_body[static_cast<std::size_t>(contact.body_a)] == static_cast<int>(part);
-}
-
-void PartedStep::start_pieces(std::size_t part) {
-  piece_.clear();
-  for (std::size_t w = 0; w < worlds_.size(); ++w) {
-    OwnContacts& now = fine_[w].now;
-    now.clear();
-    for (std::size_t i = 0; i < contacts_[w].contacts.size(); ++i) {
-      const model::Contact& contact = contacts_[w].contacts[i];
-      if (!contact.is_approach() && is_in(part, w, contact)) now.add(contacts_[w], i);
-    }
-    piece_.push_back(now.solved());
-  }
-}
-
-void PartedStep::collide(Pack& pack, const Part& part, double piece_s) {
-  piece_.clear();
-  for (std::size_t w = 0; w < worlds_.size(); ++w) {
-    auto& [now, ended, recall] = fine_[w];
-    const int world = static_cast<int>(w);
-    if (!part.bodies[w].empty()) {
-      worlds_[w].shares->collide(pack, world, part.bodies[w], piece_s, now.contacts);
-      recall.recall(
-          now.contacts, now.forces, [&](int body) { return pack.centre(world, body); },
-          [](const model::ContactForce&) { return false; });
-      now.forces.assign(recall.forces().begin(), recall.forces().end());
-    }
-    piece_.push_back(now.solved());
-  }
-}
-
-void PartedStep::end_pieces() {
-  for (Fine& fine : fine_) fine.ended.merge(fine.now.solved());
-}
-
-/// Adds the contacts of the other islands. All contacts of a pair of geoms come from one list, which keeps
-/// their order.
-void PartedStep::end_fine() {
-  for (std::size_t w = 0; w < worlds_.size(); ++w) {
-    OwnContacts& others = fine_[w].now;
-    others.clear();
-    for (std::size_t i = 0; i < contacts_[w].contacts.size(); ++i) {
-      const int part = seen_[w].part_of_body[static_cast<std::size_t>(contacts_[w].contacts[i].body_a)];
-      if (part < 0 || parts_[static_cast<std::size_t>(part)].pieces == 1) others.add(contacts_[w], i);
-    }
-    fine_[w].ended.merge(others.solved());
-  }
-}
-
-void PartedStep::OwnContacts::clear() {
-  contacts.clear();
-  forces.clear();
-}
-
-void PartedStep::OwnContacts::merge(const model::SolvedContacts& from) {
-  const auto join = [](auto& own, const auto& more) {
-    const auto num_own = std::ssize(own);
-    own.insert(own.end(), more.begin(), more.end());
-    std::ranges::inplace_merge(own, own.begin() + num_own, {}, [](const auto& each) { return each.geoms; });
-  };
-  join(contacts, from.contacts);
-  join(forces, from.forces);
-}
-
-void PartedStep::OwnContacts::add(const model::SolvedContacts& from, std::size_t index) {
-  contacts.push_back(from.contacts[index]);
-  forces.push_back(from.forces[index]);
+void PartedStep::step(Pack& pack, const Part& part, const StepParameters& parameters,
+                      core::PhaseTimes& times) {
+  pack.step(contacts_, parameters, fine_.begin_part(part.bodies, pack), times);
+  fine_.end_part();
 }
 
 void PartedStep::take_part(Pack& pack, std::size_t part, core::PhaseTimes& times) {
   if (parts_[part].is_empty()) return;
   activate(pack, parts_[part]);
-  step(pack, part, times);
+  step(pack, parts_[part], parameters_of(parts_[part]), times);
   if (parts_[part].on_trial) judge(pack, part);
   for (std::size_t w = 0; w < worlds_.size(); ++w) {
     if (!parts_[part].bodies[w].empty()) note(pack, static_cast<int>(w), static_cast<int>(part));
@@ -314,8 +218,7 @@ int PartedStep::sweeps(int world, int body) const {
   if (!cut_) return sweeps_of(parameters_);
   const int part = seen_[static_cast<std::size_t>(world)].part_of_body[static_cast<std::size_t>(body)];
   if (part < 0) return 0;
-  const Part& mine = parts_[static_cast<std::size_t>(part)];
-  return mine.pieces * sweeps_of(parameters_of(mine));
+  return sweeps_of(parameters_of(parts_[static_cast<std::size_t>(part)]));
 }
 
 }  // namespace pbmpi::solver

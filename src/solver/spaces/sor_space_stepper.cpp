@@ -348,7 +348,7 @@ void SorSpaceStepper::solve(std::span<const int> units, std::span<const Contact>
   parted_.take(*pack_, times);
   core::LapTimer after(times);
   last_step_ = step;
-  if (parted_.has_fine()) {
+  if (parted_.has_fine(0)) {
     const model::SolvedContacts ended = parted_.ended(0);
     contacts_.assign(ended.contacts.begin(), ended.contacts.end());
     recall_.replace(ended.forces);

@@ -198,12 +198,13 @@ void SorWorld::recall(const Pack& pack, int index, std::span<const model::Contac
 
 void SorWorld::after_solve(Pack& pack, int index, std::vector<model::Contact>& contacts, PartedStep& step) {
   moved_ = moved_ || moves();
-  if (step.has_fine()) recall_.replace(step.ended(index).forces);
+  if (step.has_fine(index)) recall_.replace(step.ended(index).forces);
   if (remembers_) recall_.store(state_.memory.contacts);
   if (step.is_cut()) activate(pack, index);
   InPack world(*this, pack, index, &contacts, &step);
   rules_.after_solve(world, step_);
-  if (step.has_fine()) contacts.assign(step.ended(index).contacts.begin(), step.ended(index).contacts.end());
+  if (step.has_fine(index))
+    contacts.assign(step.ended(index).contacts.begin(), step.ended(index).contacts.end());
   ++step_;
 }
 

@@ -58,7 +58,7 @@ TEST(FineIslands, meet_nearer_to_where_they_should) {
 // Fast balls have contacts ahead of them in a whole step, and need them in a piece as well.
 TEST(FineIslands, have_contacts_ahead_of_what_is_fast_in_the_step) {
   EXPECT_LT(worst_m(0, 0.1), 2 * speed * dt_s / 14);
-  EXPECT_LT(worst_m(0.1, 0.1), 2 * speed * dt_s / 16);
+  EXPECT_LT(worst_m(0.1, 0.1), 2 * speed * dt_s / 14);
 }
 
 TEST(FineIslands, are_only_those_of_bodies_that_approach) {
