@@ -12,7 +12,7 @@ valgrind and objdump. Up to 10 minutes on 2 cores; times need a machine that doe
   --quick-look   2-Cars and Fight only, a minute: what is about all nine scenes stays undecided
   --without-clock
                  only what comes out the same on every machine: no times, no instructions; 3 minutes
-  --prediction   value prediction too (pbstudy prediction): 20 minutes more; OUTDIR/prediction.h5 is kept for later calls
+  --prediction   value prediction too (jobs/paper/predict.py): 20 minutes more; OUTDIR/prediction.h5 is kept for later calls
   --long         count the instructions of direct in 100CrSk, Battle and CrashWa, too: hours more
 
 What was not measured is told in the table with the command that measures it.
@@ -113,7 +113,7 @@ fi
 
 if [[ $prediction == yes ]]; then
   echo "value prediction"
-  mpirun -n 2 pbstudy prediction --quiet --progress never --output "$out/prediction.h5"
+  python3 "$jobs/paper/predict.py" --jobs 2 --quiet --output "$out/prediction.h5"
 fi
 
 data=("$files")

@@ -12,8 +12,7 @@ and .csv. What is there already and complete is not run again, so that a sweep w
 A CASE is a scene, and how its work grows with the ranks:
   SCENE:worlds:N   N worlds over the ranks (strong scaling)
   SCENE:each:N     N worlds on each rank (weak scaling)
-  SCENE:spaces     one world cut into spaces (strong scaling), and whole on one rank; beside them a run of quick
-                   that says what a core for each island would bring
+  SCENE:spaces     one world cut into spaces (strong scaling), and whole on one rank
 Default: 100CrSk:worlds:100 100CrSk:each:50 Battle:each:4 Battle:spaces Battle2:each:4 Battle2:spaces
 
   --ranks "N ..."  numbers of ranks, or N,N,...; default: powers of two up to the cores, or to the ranks of a job
@@ -141,19 +140,9 @@ for round in ${rounds:-$(seq "$repeats")}; do
   done < <(points | shuffled "$round")
 done
 
-# What a core for each island would bring: sor solves many islands at once and has no time of one.
-for case in "${cases[@]}"; do
-  [[ $case == *:spaces && ${rounds:-1} == 1 ]] || continue
-  scene=${case%:spaces}
-  file=$out/$(name_of_scene "$scene")-islands.h5
-  readarray -t limit < <(time_limit)
-  is_complete "$file" || run_until_stopped pbmpi --scene "$scene" --replicas 1 --stepper quick --record islands \
-    --frames "$frames" --warmup 3 --quiet --output "$file" "${limit[@]}" || stop $?
-done
-
 # The other tasks of an array may be at work: on runs that are not complete yet, and on the report.
 files=()
-for file in "$out"/*-k[0-9]*.h5 "$out"/*-islands.h5; do
+for file in "$out"/*-k[0-9]*.h5; do
   ! is_complete "$file" || files+=("$file")
 done
 exec 9>"$out/.report.lock"

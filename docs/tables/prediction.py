@@ -1,4 +1,4 @@
-"""Tables of value prediction: `pbstudy prediction`, its default form, and a small one whose figures have no clock."""
+"""Tables of value prediction: `jobs/paper/predict.py`, its default form, and a small one whose figures have no clock."""
 import functools
 import json
 import os
@@ -17,7 +17,7 @@ def default_form():
         given = os.environ.get(STUDY)
         path = pathlib.Path(given) if given else folder / "prediction.h5"
         if not given:
-            programs.run(["mpirun", "-n", "2", programs.BIN / "pbstudy", "prediction", "--progress", "never", "--quiet", "-o", path])
+            programs.predict("--jobs", 2, "-o", path)
         return json.loads(programs.paper("prediction", path, "--json"))
 
 
@@ -73,7 +73,8 @@ def statements():
 def small():
     """Hits of 2-Cars by threshold: the same in each run."""
     with programs.Folder() as folder:
-        path = programs.study("prediction", folder, ["2-Cars"], "--detail-scene", "none")
+        path = folder / "prediction.h5"
+        programs.predict("--scene", "2-Cars", "--detail-scene", "none", "-o", path)
         scene = json.loads(programs.paper("prediction", path, "--json"))["scenes"][0]
     rows = []
     for run in scene["cases"]:

@@ -58,6 +58,11 @@ def paper(*options):
     return run([sys.executable, SOURCE / "jobs/paper/paper.py", *options])
 
 
+def predict(*options):
+    """Makes a study of value prediction."""
+    run([sys.executable, SOURCE / "jobs/paper/predict.py", *options, "--quiet"])
+
+
 def study(kind, folder, scenes, *options):
     """The file of `pbstudy KIND`."""
     path = folder / f"{kind}.h5"

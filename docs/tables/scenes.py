@@ -12,7 +12,7 @@ def islands():
         for scene in programs.SCENES:
             files.append(folder / f"{scene}.h5")
             programs.pbmpi("--scene", scene, "--stepper", "quick", "--quiet", "-o", files[-1])
-        found = json.loads(programs.pbreport("islands", *files, "--json"))
+        found = json.loads(programs.paper("islands", *files, "--json"))
     rows = [[one["scene"], *(numbers(one[whose]) for whose in ("islands", "paper"))] for one in found]
     return programs.table(["scene", "islands: most, least, mean, deviation", "the paper's Table 1"], rows)
 

@@ -1,13 +1,14 @@
 """The reports on the paper's figures, on its statements, and on a study of value prediction: what their pages show, and what is printed."""
 import math
 
-from reports import charts, islands, page
+from reports import charts, page
 from reports.charts import BLACK, BLUE, GREEN, ORANGE, PINK, RED, SKY, YELLOW
 from reports.document import MARKDOWN, PAGE, Chart, Report, Section, Table
 from reports.words import NO_NUMBER, number, percent
 
 import figures
 import instructions
+import islands
 import prediction
 import report
 from statements.prediction import judge_study

@@ -17,6 +17,7 @@ from reports.command_line import deliver  # noqa: E402
 import data  # noqa: E402
 import figures  # noqa: E402
 import instructions  # noqa: E402
+import islands  # noqa: E402
 import pages  # noqa: E402
 import prediction  # noqa: E402
 import runs  # noqa: E402
@@ -57,6 +58,10 @@ def run_figure6(options):
     deliver(report, options)
 
 
+def run_islands(options):
+    deliver(islands.report_of([islands.islands_of(runs.runs.Run(path)) for path in options.file]), options)
+
+
 def run_cores(options):
     scenes = [suite.suite_of(runs.Run(path)) for path in options.file]
     text = suite.CORES_HEAD + "".join(map(suite.cores_text, scenes))
@@ -79,10 +84,11 @@ COMMANDS = (
                              "a run of the scene with --record islands", "figure3.json of jobs/figure3.sh, then runs", "the figure", False),
     ("figure6", run_figure6, "one page of Figure 6 and Tables 1 and 2", "runs with --record islands on one rank", "the figure and both tables",
      False),
+    ("islands", run_islands, "Table 1: islands at the end of each measured frame, over all worlds", "runs", "", False),
     ("cores", run_cores, "Table 2: the fewest cores on which the islands of a step, longest first, take no longer than the longest of them, "
                          "and the frame rate (share of frames within 3.33 ms) if islands, then also spaces, had a core each",
      "runs with --record islands on one rank", "", False),
-    ("prediction", run_prediction, "what value prediction gains a frame and does to its result", "the file of pbstudy prediction",
+    ("prediction", run_prediction, "what value prediction gains a frame and does to its result", "the file of predict.py",
      "the bars of Figure 8, hits, errors, and the verdicts", True),
 )
 
@@ -96,7 +102,7 @@ def parser():
         command.set_defaults(run=run, json=False, markdown=False, quiet=False)
         command.add_argument("file", nargs="*", metavar="FILE", help=files)
         forms = command.add_mutually_exclusive_group()
-        if has_forms or name == "cores":
+        if has_forms or name in ("islands", "cores"):
             forms.add_argument("--json", action="store_true", help="print one JSON document")
         if has_forms:
             forms.add_argument("--markdown", action="store_true", help="print tables in Markdown")

@@ -1,4 +1,4 @@
-"""A study of value prediction, the file of `pbstudy prediction`: hits, frame rates of the modelled processor, and errors."""
+"""A study of value prediction, the file of predict.py: hits, frame rates of the modelled processor, and errors."""
 import dataclasses
 import math
 

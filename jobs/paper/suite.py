@@ -3,10 +3,10 @@ import dataclasses
 import heapq
 
 from reports.files import require
-from reports.islands import PAPER
 from reports.samples import Summary, summarize, total
 
 import runs
+from islands import PAPER
 
 TOLERANCE = 0.05  # how much later than the longest island a schedule may end: the repeatability of its time on a quiet machine
 SCENES = list(PAPER)

@@ -103,7 +103,7 @@ class BadInput(Refusals):
 
     def test_a_word_alone_is_named(self):
         self.refused(2, ["CrashSk"], "'CrashSk'", "--scene CrashSk")
-        for study in ("accuracy", "effects", "stability", "prediction"):
+        for study in ("accuracy", "effects", "stability"):
             result = self.run_command([PBSTUDY, study, "CrashSk"])
             self.assertEqual(result.returncode, 2)
             self.assertIn("did you mean --scene CrashSk?", result.stderr)

@@ -4,7 +4,7 @@ import unittest
 
 import h5py
 
-from harness import PAPER, PBREPORT, ProgramTest
+from harness import PAPER, ProgramTest
 
 RECORDED = ("--stepper", "quick", "--record", "islands")
 
@@ -15,8 +15,7 @@ class Islands(ProgramTest):
         return self.write("one.toml", f'title = "{scene} in one space"\nbase = "{scene}"\n[run]\nspaces = "one"\n')
 
     def report(self, *args):
-        program = PAPER if args[0] == "cores" else [PBREPORT]
-        result = self.run_command([*program, *args, "--json"])
+        result = self.run_command([*PAPER, *args, "--json"])
         self.assertEqual(result.returncode, 0, result.stderr)
         return json.loads(result.stdout)
 

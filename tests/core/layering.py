@@ -81,10 +81,9 @@ STANDS_ON = {
     "src/app/pbstudy/accuracy": ["src/app/pbstudy/study"],
     "src/app/pbstudy/calibrate": ["src/app/pbstudy/study", "mpi/frame", "src/synthetic"],
     "src/app/pbstudy/effects": ["src/app/pbstudy/study"],
-    "src/app/pbstudy/prediction": ["src/app/pbstudy/study"],
     "src/app/pbstudy/stability": ["src/app/pbstudy/study"],
     "src/app/pbstudy": ["src/app/pbstudy/accuracy", "src/app/pbstudy/calibrate", "src/app/pbstudy/effects",
-                        "src/app/pbstudy/prediction", "src/app/pbstudy/stability"],
+                        "src/app/pbstudy/stability"],
 }
 
 # A folder is one part of the program; one with more files than these is more than one.

@@ -1,15 +1,16 @@
-"""pbstudy prediction and its report on a small scene."""
+"""jobs/paper/predict.py and the report on its study of a small scene."""
 import json
 import os
 import subprocess
+import sys
 import unittest
 
 import h5py
 
 from pbvalue import BIN, ToolTest  # which adds the folder of harness
-from harness import PAPER  # noqa: E402
+from harness import PAPER, SOURCE  # noqa: E402
 
-PBSTUDY, PBREPORT = os.path.join(BIN, "pbstudy"), os.path.join(BIN, "pbreport")
+PREDICT, PBREPORT = [sys.executable, os.path.join(SOURCE, "jobs/paper/predict.py")], os.path.join(BIN, "pbreport")
 HAS_SINGLE = os.path.exists(os.path.join(BIN, "pbmpi_ode_single"))
 BARS = ["20Iter", "19Iter", "FEEC", "FVP6", "EVP", "FEEC+FVP6"]
 
@@ -24,7 +25,7 @@ class Study(ToolTest):
         return result.stdout
 
     def test_a_study_has_hits_cycles_and_errors_of_each_case(self):
-        result = self.command("mpirun", "-n", 2, PBSTUDY, "prediction", "--scene", "2-Cars", "--frames", 2, "--warmup", 1,
+        result = self.command(*PREDICT, "--jobs", 2, "--scene", "2-Cars", "--frames", 2, "--warmup", 1,
                               "--threshold", "1e-6", "--detail-scene", "2-Cars")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn(f"{11 if HAS_SINGLE else 9} cases of 1 scene in prediction.h5", result.stdout)
@@ -117,7 +118,7 @@ class Study(ToolTest):
 
     def test_a_run_that_blows_up_has_its_step(self):
         # A threshold as large as the scene: nothing that is predicted has to do with what is computed.
-        result = self.command(PBSTUDY, "prediction", "--scene", "2-Cars", "--frames", 1, "--warmup", 0, "--threshold", "1e9", "--time-limit", 60)
+        result = self.command(*PREDICT, "--scene", "2-Cars", "--frames", 1, "--warmup", 0, "--threshold", "1e9", "--time-limit", "60s")
         self.assertEqual(result.returncode, 0, result.stderr)
         with h5py.File(self.path("prediction.h5")) as file:
             table = file["cases"]
@@ -135,7 +136,7 @@ class Study(ToolTest):
 
     def test_what_cannot_be_is_refused_before_anything_runs(self):
         for options in (("--threshold", "0"), ("--scene", "3-Cars"), ("--frames", "0"), ("--budget", "-1")):
-            result = self.command(PBSTUDY, "prediction", *options)
+            result = self.command(*PREDICT, *options)
             self.assertEqual(result.returncode, 2, options)
             self.assertIn(options[0].lstrip("-") if options[0] != "--scene" else "3-Cars", result.stderr)
 

@@ -1,8 +1,8 @@
 """Section 4: Figure 3, shares of the time, Table 2."""
-from reports.islands import PAPER
 from reports.words import percent
 
 from instructions import counted_cost, direct_cost
+from islands import PAPER
 from statements.statement import CLOCK, COUNTS, FIGURE_3, FIGURE_6, INSTRUCTIONS, NUM_SCENES, Answer, Statements, is_near, joined
 
 STATEMENTS = Statements()

@@ -1,4 +1,4 @@
-"""Value prediction: section 5.1 and its part of 5.4, judged by the study of `pbstudy prediction`."""
+"""Value prediction: section 5.1 and its part of 5.4, judged by the study of predict.py."""
 import dataclasses
 import math
 

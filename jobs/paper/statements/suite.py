@@ -1,9 +1,8 @@
 """Section 3: the scenes, Table 1, and the mix of instructions."""
 import math
 
-from reports.islands import PAPER
-
 from instructions import MIX, PAPER_MIX, mean_mix
+from islands import PAPER
 from statements.statement import COUNTS, FIGURE_3, FIGURE_6, INSTRUCTIONS, NUM_SCENES, Answer, Statements, is_near, joined, over_scenes
 
 STATEMENTS = Statements()

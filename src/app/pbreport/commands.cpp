@@ -38,7 +38,6 @@ const std::vector<ReportCommand>& report_commands() {
   static const std::vector<ReportCommand> commands = {
       {"report", "the summary of one run, its HTML page, its ParaView sidecar (the default)",
        run_first_command},
-      {"islands", "the paper's Table 1 from runs"},
       {"diff", "how far two recorded runs of the same bodies are apart"},
       {"study", "what accuracy costs in time: the file of pbstudy, and the setting for a budget"},
       {"effects", "what effects cost: the file of pbstudy effects"},

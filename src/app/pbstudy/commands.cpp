@@ -7,7 +7,6 @@
 #include "app/pbstudy/accuracy/accuracy_options.h"
 #include "app/pbstudy/calibrate/calibrate_options.h"
 #include "app/pbstudy/effects/effects_options.h"
-#include "app/pbstudy/prediction/prediction_options.h"
 #include "app/pbstudy/stability/stability_options.h"
 #include "app/pbstudy/study/study_runner.h"
 #include "core/text.h"
@@ -38,8 +37,6 @@ const std::vector<StudyCommand>& study_commands() {
        calibrate_manual},
       {"effects", "what each effect costs, and what leaving it out does to the result", run_effects,
        effects_manual},
-      {"prediction", "what value prediction gains a frame, and what it does to the result (Valgrind)",
-       run_prediction, prediction_manual},
       {"stability", "which settings hold the cases that are known to be hard", run_stability,
        stability_manual},
   };
@@ -57,7 +54,7 @@ Manual pbstudy_manual() {
                 .title = "Studies (pbstudy STUDY --help shows their options)",
                 .options = options,
                 .exit_codes = common_exit_codes(),
-                .files = {{"STUDY.h5", "the study, in HDF5; pbreport shows it (prediction: jobs/paper)"},
+                .files = {{"STUDY.h5", "the study, in HDF5; pbreport shows it"},
                           {"STUDY.h5.cases-RANK", "cases that are done, until the study is complete"}},
                 .examples = {"mpirun -n 2 pbstudy accuracy --scene CrashWa"}};
   manual.exit_codes.push_back({"75", "stopped early on request; --resume goes on"});

@@ -17,7 +17,7 @@ except ImportError as error:
 
 # By command; a module has run(words), which prints.
 MODULES = {"study": "accuracy", "effects": "effects", "stability": "stability", "engines": "engines", "scaling": "scaling",
-           "ensemble": "ensemble", "calibrate": "calibrate", "islands": "islands", "csv": "one_run.csv_report",
+           "ensemble": "ensemble", "calibrate": "calibrate", "csv": "one_run.csv_report",
            "diff": "one_run.diff", "report": "one_run.run_page", "join": "join.joined"}
 
 

@@ -4,7 +4,7 @@ from reports.command_line import Command, add_table_option, deliver, parse, requ
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
 from reports.files import require
 from reports.runs import PHASES
-from reports.scaling_curves import Figure6, Rules, curves_of, files_without_curve, read_scaling_run
+from reports.scaling_curves import Rules, curves_of, files_without_curve, read_scaling_run
 from reports.tables import Values, csv_of, json_of
 from reports.words import percent, plural
 
@@ -57,9 +57,6 @@ def speed_up_chart(curve):
              "ideal": (charts.INK, lambda point: point.ideal, True)}
     if curve.decomposition == "spaces":
         lines["largest island on one rank"] = (charts.RED, lambda point: point.median("island_bound"), True)
-    if curve.figure6:
-        lines["Figure 6: a core an island"] = (charts.ORANGE, lambda _: curve.figure6.islands, True)
-        lines["Figure 6: and a core a space"] = (charts.GREEN, lambda _: curve.figure6.spaces, True)
     return lines_chart(curve, "Speed-up", "Ratios of the k-th runs of a point and of the base.", lines,
                        {"x": charts.axis("ranks"), "y": charts.axis("worlds a second, over the base's")})
 
@@ -106,14 +103,12 @@ def estimated_json(name, value):
 
 
 def point_row(curve, point):
-    figure6 = curve.figure6 or Figure6("", 0.0, 0.0)
+    factors = {name: point.median(f"pop.{name}") for name in ("load_balance", "serialisation", "transfer")}
+    counted = {name: point.median(name) for name in ("root_share", "messages", "bytes", "within_budget")}
     return {"is_base": int(point is curve.base), "repeats": len(point.runs), "frame_time": point.median("frame_s"),
             **estimated_json("speed_up", point.speed_up), **estimated_json("efficiency", point.efficiency),
             "confidence": point.speed_up.interval.confidence, "ideal_speed_up": point.ideal, "island_bound": point.median("island_bound"),
-            "figure6_islands": figure6.islands, "figure6_spaces": figure6.spaces, "load_balance": point.median("pop.load_balance"),
-            "serialisation": point.median("pop.serialisation"), "transfer": point.median("pop.transfer"), "computation": point.computation,
-            "root_share": point.median("root_share"), "messages": point.median("messages"), "bytes": point.median("bytes"),
-            "within_budget": point.median("within_budget"), "reportable": int(not point.doubts), "doubts": point.doubts}
+            **factors, "computation": point.computation, **counted, "reportable": int(not point.doubts), "doubts": point.doubts}
 
 
 def tables_of(curves):

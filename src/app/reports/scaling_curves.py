@@ -7,7 +7,6 @@ import operator
 import numpy as np
 
 from reports.files import require
-from reports.islands import PAPER
 from reports.runs import NOTHING, PHASES, USEFUL, Run, matters_for
 from reports.samples import Interval, median_interval, quantile, total
 from reports.words import plural
@@ -128,31 +127,6 @@ def read_scaling_run(path):
 
 
 @dataclasses.dataclass
-class Figure6:
-    """Speed-up of a run if each island, then also each space, had a core: the bars of the paper's Figure 6."""
-    stepper: str
-    islands: float
-    spaces: float
-
-
-def figure6_of(path):
-    """From a run that recorded islands on one rank. The solver takes as long as its longest island, collision detection as long as the
-    world whose spaces take longest: nothing crosses between worlds."""
-    run = Run(path)
-    phase_s = {phase: run.of_ranks(phase)[:, 0] for phase in ("collide", "islands", "rows", "solve", "integrate")}
-    frame_s = total(list(phase_s.values()))
-    names = ("island/solve", "space/collide", "space/collide_spaces")
-    island_s, space_s, spaces_s = (run.frames(f"timings/{name}")[run.measured] for name in names)
-    of_solve, of_collide = (np.divide(longest.max(axis=1), whole, out=np.ones(len(whole)), where=whole > 0)
-                            for longest, whole in ((island_s, total(island_s.T)), (spaces_s, total(space_s.T))))
-    with_islands_s = frame_s - phase_s["solve"] + phase_s["solve"] * of_solve
-    with_spaces_s = with_islands_s - phase_s["collide"] + phase_s["collide"] * of_collide
-    frames = len(frame_s)
-    serial_hz, islands_hz, spaces_hz = (frames / total(seconds) for seconds in (frame_s, with_islands_s, with_spaces_s))
-    return Figure6(run.parameter("stepper"), islands_hz / serial_hz, spaces_hz / serial_hz)
-
-
-@dataclasses.dataclass
 class Estimated:
     """The median of a sample, and an interval for the distribution's median."""
     median: float
@@ -222,14 +196,13 @@ def doubts_of(point, base, hashes, rules):
 
 class Curve:
     """Points by ascending ranks, compared with the base. `decomposition`: of all points except, in a strong curve, some on the fewest
-    ranks. figure6: for a strong curve, from a run of the same worlds on one rank that recorded islands, with any stepper."""
+    ranks."""
 
     def __init__(self, kind, decomposition, series, samples, base, rules):
         self.kind, self.decomposition = kind, decomposition
         self.points = [Point(sample.runs, base, hashes_of(series, sample.worlds), rules) for sample in samples]
         self.base = next(point for point in self.points if point.key == base.key)
         self.first = base.runs[0]  # gives scene, stepper ...
-        self.figure6 = None
 
     def label(self, point):
         """"2", or "1, worlds" where the point has another decomposition than the curve."""
@@ -243,15 +216,8 @@ class Curve:
     def base_text(self):
         """The base of the curve, and the bound on its speed-up."""
         way = "whole worlds" if self.base.decomposition == "worlds" else "cut into spaces"
-        text = (f"Base: {plural(self.base.ranks, 'rank')}, {way}, {1e3 * self.base.median('frame_s'):.4g} ms a frame of "
+        return (f"Base: {plural(self.base.ranks, 'rank')}, {way}, {1e3 * self.base.median('frame_s'):.4g} ms a frame of "
                 f"{plural(self.first.steps_per_frame, 'step')}.")
-        if self.figure6:
-            bars = self.figure6
-            text += (f" As in the paper's Figure 6, with {bars.stepper}: with a core for each island {bars.islands:.2f} times one core, "
-                     f"and for each space, too, {bars.spaces:.2f}.")
-        if self.kind == STRONG and self.first.scene in PAPER:
-            text += f" The paper's Table 2 has {plural(PAPER[self.first.scene].cores, 'core')} for the islands of this scene."
-        return text
 
 
 def hashes_of(series, worlds):
@@ -309,13 +275,7 @@ def weak_curves(series, rules):
 def curves_of(runs, rules):
     """Strong curves, then weak ones, in the order in which the first runs of their scenes were given."""
     series = series_of(runs)
-    curves = [curve for curves_in in (strong_curves, weak_curves) for one in series for curve in curves_in(one, rules)]
-    for curve in curves:
-        recorded = next((run for run in runs if run.records_islands and run.ranks == 1 and run.scene == curve.first.scene
-                         and run.worlds == curve.first.worlds), None)
-        if recorded and curve.kind == STRONG:
-            curve.figure6 = figure6_of(recorded.path)
-    return curves
+    return [curve for curves_in in (strong_curves, weak_curves) for one in series for curve in curves_in(one, rules)]
 
 
 def files_without_curve(runs, curves):

@@ -48,14 +48,16 @@ def fixed_text(texts):
 
 
 def image_of(filetype, version, attributes, parameters, tables):
-    """The bytes of an HDF5 file (io/SCHEMA.md). `version`: (major, minor) of its layout; `attributes`, `parameters`: texts by name."""
+    """The bytes of an HDF5 file (io/SCHEMA.md). `version`: (major, minor) of its layout; `attributes`: texts by name; `parameters`: texts or
+    numbers."""
     with h5py.File("in memory", "w", driver="core", backing_store=False) as file:
         for name, text in {"filetype": filetype, **attributes}.items():
             value = fixed_text([text])
             file.attrs.create(name, value[0], dtype=value.dtype)
         file.attrs["version"] = np.array(version, dtype=np.int64)
-        for name, text in parameters.items():
-            file.create_dataset(f"parameters/{name}", data=fixed_text([text])[0], dtype=fixed_text([text]).dtype)
+        for name, value in parameters.items():
+            stored = Values(name, "", [value]).stored()
+            file.create_dataset(f"parameters/{name}", data=stored[0], dtype=stored.dtype)
         for table, columns in tables.items():
             for column in columns:
                 dataset = file.create_dataset(f"{table}/{column.name}", data=column.stored())

@@ -1,4 +1,4 @@
-"""pbreport islands: counts over the measured frames, beside the paper's."""
+"""jobs/paper/paper.py islands: counts over the measured frames, beside the paper's."""
 import json
 import pathlib
 import sys
@@ -7,17 +7,19 @@ import unittest
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "src/app"))
-import made_up  # noqa: E402
-from reports import document, islands  # noqa: E402
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+sys.path[:0] = [str(SOURCE / "jobs/paper"), str(SOURCE / "src/app")]
+import islands  # noqa: E402
+from reports import document  # noqa: E402
 from reports.runs import Run  # noqa: E402
 from reports.samples import Summary  # noqa: E402
+from made_up import write_run  # noqa: E402
 
 
 class Islands(unittest.TestCase):
     def read(self, **others):
         with tempfile.TemporaryDirectory() as folder:
-            return islands.islands_of(Run(made_up.write_run(pathlib.Path(folder) / "run.h5", **others)))
+            return islands.islands_of(Run(write_run(pathlib.Path(folder) / "run.h5", **others)))
 
     def test_are_counted_over_all_worlds_in_measured_frames(self):
         one = self.read(parameters={"num_spaces": 5})

@@ -136,14 +136,6 @@ class Files(made_up.FilesTest):
         self.assertAlmostEqual(found.root_share, 1 / 6, 12)
         self.assertAlmostEqual(found.island_bound, 5 / (1 + 2 / 2 + 3 * 0.75), 12)
 
-    def test_figure_6_gives_each_island_and_each_space_a_core(self):
-        profile = {"timings__island__solve": np.tile([3.0, 1.0], (5, 1)), "timings__space__collide": np.full((5, 2), 2.0),
-                   "timings__space__collide_spaces": np.tile([1.0, 2.0], (5, 1))}
-        found = scaling_curves.figure6_of(self.write("run.h5", **profile))
-        # Five phases of x each: solve takes 3 / 4 of it, collision detection half.
-        self.assertAlmostEqual(found.islands, 5 / 4.75, 12)
-        self.assertAlmostEqual(found.spaces, 5 / 4.25, 12)
-
     def test_the_command_prints_and_writes_one_report(self):
         files = [self.write(f"{ranks}.h5", ranks=ranks) for ranks in (1, 2)] + [self.write("other.h5", worlds=5)]
         page, csv = self.path("page.html"), self.path("points.csv")

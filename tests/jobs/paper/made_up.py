@@ -6,12 +6,11 @@ import sys
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
 sys.path[:0] = [os.path.join(SOURCE, "jobs", "paper"), os.path.join(SOURCE, "src", "app")]
 
-from reports.islands import PAPER  # noqa: E402
-
 import figures  # noqa: E402
 import instructions  # noqa: E402
 import suite  # noqa: E402
 from data import PaperData  # noqa: E402
+from islands import PAPER  # noqa: E402
 
 SIMPLE = ("2-Cars", "10-Cars", "CrashSk")
 

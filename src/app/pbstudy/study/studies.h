@@ -13,10 +13,9 @@ namespace pbmpi::app {
 /// rank.
 using Study = core::ExitCode(const mpi::Communicator& comm, const std::vector<std::string>& args);
 
-Study run_accuracy;    ///< what accuracy costs in time
-Study run_calibrate;   ///< the cost of the harness, without the physics
-Study run_effects;     ///< the cost of each effect, and how leaving it out changes the result
-Study run_prediction;  ///< how value prediction would change the time of a frame, and its result
-Study run_stability;   ///< which settings pass the hard cases
+Study run_accuracy;   ///< what accuracy costs in time
+Study run_calibrate;  ///< the cost of the harness, without the physics
+Study run_effects;    ///< the cost of each effect, and how leaving it out changes the result
+Study run_stability;  ///< which settings pass the hard cases
 
 }  // namespace pbmpi::app

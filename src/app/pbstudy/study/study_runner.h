@@ -32,8 +32,7 @@ struct StudyContent {
   std::vector<io::TableColumn> cases;                          ///< one row per case
   std::map<std::string, std::vector<io::TableColumn>> tables;  ///< other tables, by name
   std::string note;                                            ///< lines printed at the end of the run
-  std::string report = "pbreport";                             ///< shows the file
-  std::string next;                                            ///< its options for the next look
+  std::string next;                                            ///< options of pbreport for the next look
 };
 
 /// What the files of all studies say of their run: attributes, and as parameters seed, repeats, ranks, build.

@@ -1,13 +1,8 @@
-"""pbreport islands: the islands of scenes beside the paper's Table 1, from files of runs."""
+"""The islands of scenes beside the paper's Table 1, from files of runs; and what the paper says of its scenes."""
 import dataclasses
 
-from reports.command_line import Command, deliver, parse
 from reports.document import Report, Section, Table
-from reports.files import require
-from reports.runs import Run
 from reports.samples import Summary, summarize
-
-COMMAND = Command("islands", "Shows the paper's Table 1 from runs: islands at the end of each measured frame.", "FILE... [options]")
 
 
 @dataclasses.dataclass
@@ -100,11 +95,3 @@ def report_of(found):
     header = ["scene", "islands", "max", "min", "mean", "dev", "spaces", "across spaces"]
     table = Table("", header, [row for one in found for row in rows_of(one)])
     return Report("Islands", "", [Section(tables=[table])], [json_of(one) for one in found])
-
-
-def run(words):
-    options = parse(COMMAND, words)
-    if options is None:
-        return
-    require(options.files, "no file given; name the HDF5 files of runs, e.g. CrashSk.h5 Fight.h5")
-    deliver(report_of([islands_of(Run(path)) for path in options.files]), options)

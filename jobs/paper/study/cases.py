@@ -1,4 +1,4 @@
-"""The cases of "pbstudy prediction": a scene, the way to step it, and what is predicted."""
+"""The cases of the study: a scene, the way to step it, and what is predicted."""
 import dataclasses
 import math
 

@@ -1,16 +1,18 @@
-"""The cases of "pbstudy prediction", the programs that it starts, and what it makes of their errors."""
+"""The cases of jobs/paper/predict.py, the programs that it starts, what it makes of their errors, and what it keeps of a study that was stopped."""
 import os
 import pathlib
-import sys
 import tempfile
 import unittest
 from unittest import mock
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "src/app"))
-from reports.errors import KINDS  # noqa: E402
-from studies import child, tables  # noqa: E402
-from studies.cases import ODE_SINGLE, VARIANTS, cases_of, threshold_name  # noqa: E402
-from studies.runs import joined_errors  # noqa: E402
+import made_up  # noqa: F401  which adds the folder of what is tested
+
+from predict import Kept
+from reports.errors import KINDS
+from reports.files import BadInput
+from study import child, tables
+from study.cases import ODE_SINGLE, VARIANTS, cases_of, threshold_name
+from study.runs import joined_errors
 
 SCENE = {"worlds": 1, "warmup": 3, "frames": 5, "iterations": 20, "bodies": 10, "in_detail": False}
 
@@ -85,8 +87,30 @@ class Errors(unittest.TestCase):
         self.assertEqual((joined["max"], joined["bands"], joined["broken"]), (float("inf"), [1, 2, 0, 1, 1], 5))
         self.assertEqual(joined_errors([])["joint_position"], {"rms": 0, "max": 0, "bands": [0] * 5, "broken": 0})
 
-    def test_that_are_not_finite_pass_json_as_text(self):
-        self.assertEqual(list(map(tables.plain, (1.5, float("inf"), float("nan"), 3))), [1.5, "inf", "nan", 3])
+
+class Tables(unittest.TestCase):
+    def test_without_rows_have_the_types_of_their_columns(self):
+        columns = {column.name: column.stored() for column in tables.columns([])["cases"]}
+        self.assertEqual([(columns[name].dtype.kind, columns[name].shape) for name in ("exit_code", "threshold", "drift_body_position_bands")],
+                         [("i", (0,)), ("f", (0,)), ("i", (0, 5))])
+        self.assertEqual(columns["scene"].dtype.kind, "S")
+
+
+class KeptCases(unittest.TestCase):
+    def test_are_those_that_ended_before_a_kill_and_of_the_same_study_only(self):
+        with tempfile.TemporaryDirectory() as folder:
+            output = pathlib.Path(folder, "study.h5")
+            kept = Kept(output, {"seed": 1}, False)
+            kept.add(3, {"cases": [{"rms": float("inf"), "bands": [1, 0]}]})
+            kept.add(0, {"cases": []})
+            with open(kept.path, "a", encoding="utf-8") as file:
+                file.write('[1, {"cases"')
+            again = Kept(output, {"seed": 1}, True)
+            self.assertEqual(again.outcomes, {3: {"cases": [{"rms": float("inf"), "bands": [1, 0]}]}, 0: {"cases": []}})
+            self.assertEqual(len(kept.path.read_text(encoding="utf-8").splitlines()), 3)
+            with self.assertRaisesRegex(BadInput, "of another study"):
+                Kept(output, {"seed": 2}, True)
+            self.assertEqual(Kept(output, {"seed": 2}, False).outcomes, {})
 
 
 if __name__ == "__main__":

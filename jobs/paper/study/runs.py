@@ -5,8 +5,8 @@ import pathlib
 import tempfile
 
 from reports.errors import KINDS
-from studies import child
-from studies.cases import VARIANTS
+from study import child
+from study.cases import VARIANTS
 
 
 class CaseRuns:
@@ -23,13 +23,13 @@ class CaseRuns:
     def start(self, command, name):
         return child.run(command, self.folder / name, self.options["time_limit_s"], VALGRIND_LIB=self.request["tool"])
 
-    def simulate(self, name, scene_file, iterations, tool=(), more=(), steps=0):
+    def simulate(self, name, iterations, tool=(), more=(), steps=0):
         """Runs pbmpi over all frames of the scene; it writes NAME.h5. `tool`: a command to put before it; `more`: its last options; `steps`: of a
         frame, in place of the scene's."""
         scene, case = self.scene, self.case
         steps = steps or scene["steps_per_frame"]
         frames = (scene["warmup"] + scene["frames"]) * scene["steps_per_frame"] // steps
-        command = [*tool, self.program(case["program"]), "--scene", scene_file, "--stepper", case["stepper"], "--warmup", 0, "--frames", frames,
+        command = [*tool, self.program(case["program"]), "--scene", scene["given"], "--stepper", case["stepper"], "--warmup", 0, "--frames", frames,
                    "--steps-per-frame", steps, "--replicas", scene["worlds"], "--output", self.folder / f"{name}.h5",
                    "--report", "json", "--progress", "never", "--seed", self.options["seed"], *more]
         if case["stepper"] == "quick":
@@ -64,17 +64,17 @@ def joined_errors(frames):
     return joined
 
 
-def unpredicted(request, folder, scene_file):
+def unpredicted(request, folder):
     """The run that all cases of a scene and a stepper are compared with: with the scene's iterations and without FEEC, whatever the case's. Its file,
     its islands, and as "floor" its drift over the measured frames when only the solver's seed differs. Kept in `folder`."""
     case, scene = request["case"], request["scene"]
     kept = folder / f"base-{case['scene']}-{case['program']}-{case['stepper']}.kept"
     if not kept.exists():
         runs = CaseRuns(request, folder)
-        base = runs.simulate(kept.stem, scene_file, scene["iterations"])
+        base = runs.simulate(kept.stem, scene["iterations"])
         base.require_end(": the unpredicted run")
         seed = (request["options"]["seed"] + 1) % 2**64
-        runs.simulate("floor", scene_file, scene["iterations"], more=("--solver-seed", seed)).require_end(": the run of another seed")
+        runs.simulate("floor", scene["iterations"], more=("--solver-seed", seed)).require_end(": the run of another seed")
         found = runs.difference("floor", kept.with_suffix(".h5"))
         kept.write_text(json.dumps({"islands": islands(base.summary, "mean"),
                                     "floor": joined_errors(found["drift_by_frame"][scene["warmup"]:] if found else [])}), encoding="utf-8")
@@ -115,12 +115,11 @@ def run_case(request, folder):
     """What came out of a case: the columns of /cases that are not 0 by themselves, and as "sections" the tool's report. Raises child.RunError if a run
     ends as none should; its message goes on after the case's name."""
     case = request["case"]
-    scene_file = next(pathlib.Path(folder, str(case["scene"])).iterdir())
-    base = unpredicted(request, folder, scene_file)
+    base = unpredicted(request, folder)
     with tempfile.TemporaryDirectory(dir=folder) as own:
         runs = CaseRuns(request, pathlib.Path(own))
         tool = tool_command(request, f"{own}/tool")
-        run = runs.simulate("run", scene_file, case["iterations"], tool + (model_options(request) if case["has_cycles"] else []),
+        run = runs.simulate("run", case["iterations"], tool + (model_options(request) if case["has_cycles"] else []),
                             ["--feec"] if case["feec"] else [])
         result = {"exit_code": run.exit_code, "sections": []}
         if case["threshold"] == 0:
@@ -134,6 +133,6 @@ def run_case(request, folder):
                       base_islands_mean=base["islands"], nonfinite_frame=run.nonfinite_frame)
         compare(runs, base, result)
         if run.nonfinite_frame >= 0:  # which step of it: a run with one step a frame
-            steps = runs.simulate("steps", scene_file, case["iterations"], tool, steps=1)
+            steps = runs.simulate("steps", case["iterations"], tool, steps=1)
             result["nonfinite_step"] = steps.nonfinite_frame if steps.has_ended_well else -1
         return result

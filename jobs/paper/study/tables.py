@@ -1,8 +1,9 @@
-"""The tables of the file of "pbstudy prediction" (io/SCHEMA.md), as rows that are dictionaries by column."""
-import math
+"""The tables of the study's file (io/SCHEMA.md), as rows that are dictionaries by column."""
+import numpy as np
 
 from reports.errors import KINDS
-from studies.cases import VARIANTS, Case
+from reports.tables import Values
+from study.cases import VARIANTS, Case
 
 MIX = ("floating_point", "integer", "branch", "store", "load")
 VALUES = ("fp_load", "fp_operation", "int_load", "int_operation")  # in pbvalue's words, as the mix
@@ -19,7 +20,7 @@ def error_columns(prefix, errors=None):
 
 
 def case_row(case, scene, result):
-    row = {"name": case.name, "worlds": scene["worlds"], "warmup": scene["warmup"], "frames": scene["frames"], "stepper": case.stepper,
+    row = {"scene": scene["name"], "name": case.name, "worlds": scene["worlds"], "warmup": scene["warmup"], "frames": scene["frames"], "stepper": case.stepper,
            "precision": case.precision, "iterations": case.iterations if case.stepper == "quick" else 0, "feec": int(case.feec),
            "threshold": case.threshold, "scope": case.scope}
     usual = {"exit_code": 0, "ended": 0, "frames_done": 0, "same_hash": 0, "nonfinite_frame": -1, "nonfinite_step": -1, "islands_mean": 0.0,
@@ -63,31 +64,28 @@ def rows_of_case(case_index, case, scene, result):
             "sensitivity": [variant_row(case_index, index, result["sections"]) for index in range(len(VARIANTS)) if has_variants]}
 
 
-def plain(value):
-    """Numbers that are not finite as text: JSON has none."""
-    return value if not isinstance(value, float) or math.isfinite(value) else repr(value)
-
-
 def rows(request, result):
-    """{table: [row]}, with the values of a row in the order of columns()."""
+    """{table: [row]}, a row as a dictionary by column."""
     fields = {name: value for name, value in request["case"].items() if name != "cost"}
-    tables = rows_of_case(request["index"], Case(**fields), request["scene"], result)
-    return {table: [[plain(value) for value in row.values()] for row in its_rows] for table, its_rows in tables.items()}
+    return rows_of_case(request["index"], Case(**fields), request["scene"], result)
 
 
-def columns():
-    """{table: [column]}, from rows of a case that has one of each."""
+def columns(outcomes):
+    """{table: [Values]} of the rows of all cases. Types and widths are those of a made-up case that has a row in each table."""
     hits = dict.fromkeys((*COUNTS, "error_sum", "error_max"), 0)
     section = {"section": "precise", "modelled": True, "instructions": 0, "collision_instructions": 0, "micro_ops": 0,
                "cycles": {f"{name}{suffix}": 0 for name in ("none", "predicted") for suffix in ("", *range(1, len(VARIANTS)))},
                "mix": dict.fromkeys(MIX, 0), "classes": dict.fromkeys(VALUES, hits)}
-    scene = {"worlds": 0, "warmup": 0, "frames": 0}
-    tables = rows_of_case(0, Case(0, "", 0, has_variants=True), scene, {"sections": [section], "ended": 1})
-    return {table: [column(name, value) for name, value in its_rows[0].items()] for table, its_rows in tables.items()}
+    scene = {"name": "", "worlds": 0, "warmup": 0, "frames": 0}
+    samples = rows_of_case(0, Case(0, "", 0, has_variants=True), scene, {"sections": [section], "ended": 1})
+    return {table: [column(name, sample, [row[name] for outcome in outcomes for row in outcome[table]]) for name, sample in its_rows[0].items()]
+            for table, its_rows in samples.items()}
 
 
-def column(name, value):
-    width = len(value) if isinstance(value, list) else 1
+def column(name, sample, values):
+    """A column of rows with values like the sample: a text, a number, or a list of numbers."""
     unit = next((unit for kind, unit in KINDS.items() if name.endswith((f"{kind}_rms", f"{kind}_max"))), "")
-    types = {int: "integer", float: "real", str: "text"}
-    return {"name": name, "unit": unit, "width": width, "type": types[type(value[0] if isinstance(value, list) else value)]}
+    if isinstance(sample, str):
+        return Values(name, unit, values)
+    like = np.array(sample)
+    return Values(name, unit, np.array(values, like.dtype).reshape(len(values), *like.shape))
