@@ -4,6 +4,8 @@
 #include <functional>
 #include <numeric>
 
+#include "core/error.h"
+
 namespace pbmpi::io {
 namespace {
 
@@ -33,6 +35,16 @@ Chunks chunks_of(hid_t dataset) {
 }
 
 }  // namespace
+
+void SpaceAhead::cover(hid_t file, const std::string& dataset, hsize_t needed, hsize_t ahead) {
+  hsize_t& covered = covered_[dataset];
+  if (needed <= covered) return;
+  const auto opened =
+      owned<Dataset>(H5Dopen2(file, dataset.c_str(), H5P_DEFAULT), "H5Dopen(" + dataset + ")");
+  const std::string why = target_.reserve(bytes_of_rows(opened.id(), covered, needed + ahead));
+  if (!why.empty()) throw core::RunError("no disk space for the next rows of " + dataset + ": " + why);
+  covered = needed + ahead;
+}
 
 hsize_t end_of_chunk(hid_t dataset, hsize_t row) {
   const hsize_t rows = chunks_of(dataset).chunk[0];

@@ -7,9 +7,9 @@
 #include <span>
 
 #include "core/error.h"
-#include "core/number_text.h"
 #include "core/system/input_file.h"
 #include "core/system/seal.h"
+#include "core/text.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/file_types.h"
 #include "io/hdf5/rows.h"

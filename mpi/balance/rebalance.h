@@ -25,4 +25,33 @@ struct Rebalancing {
 Rebalancing rebalance(std::span<const int> placement, std::span<const double> cost, int num_ranks,
                       double threshold);
 
+/// Smooths the costs of the last frames and keeps a minimum distance between rebalances. Communicates
+/// nothing.
+///
+/// A world's cost is its median over the last 3 frames, so a single frame disturbed by something else on the
+/// machine does not count. The first decision falls after frame 2 (the first frame runs with cold caches).
+/// After a rebalance 4 frames pass before the next decision, and the costs are measured on the new owners.
+class Rebalancer {
+ public:
+  static constexpr int window = 3;      ///< frames that are smoothed over
+  static constexpr int min_frames = 2;  ///< frames before the first decision
+  static constexpr int cooldown = 4;    ///< frames without a decision after a rebalance
+
+  /// `threshold` >= 1: max/avg load beyond which worlds move; infinity = never.
+  Rebalancer(int num_ranks, double threshold) : num_ranks_(num_ranks), threshold_(threshold) {}
+
+  /// Takes in a frame's costs [num_worlds] in seconds and returns the moves to make now, if any.
+  Rebalancing frame_done(std::span<const double> cost_s, std::span<const int> placement);
+
+  /// The median cost of each world over the window [num_worlds], s.
+  std::vector<double> smoothed() const;
+
+ private:
+  int num_ranks_;
+  double threshold_;
+  int frames_until_decision_ = min_frames;
+  std::size_t next_slot_ = 0;
+  std::vector<std::vector<double>> recent_;  ///< [<= window][num_worlds], a ring
+};
+
 }  // namespace pbmpi::mpi

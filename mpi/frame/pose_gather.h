@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,10 +10,35 @@
 #include "mpi/comm/communicator.h"
 #include "mpi/comm/pending_messages.h"
 #include "mpi/comm/tree_gather.h"
-#include "mpi/frame/pose_shares.h"
 #include "stepping/frame.h"
 
 namespace pbmpi::mpi {
+
+/// Numbers that are sent for a world: its own number, positions [n][3], orientations [n][4] (w, x, y, z).
+constexpr std::int64_t numbers_of_world(std::int64_t num_bodies) { return 1 + 7 * num_bodies; }
+
+/// [num_ranks] bytes that each rank sends; root sends none.
+std::vector<std::int64_t> share_bytes(const stepping::WorldTable& table, std::span<const int> placement,
+                                      int num_ranks);
+
+/// Writes the share of a rank with these worlds, by ascending id; `number` [worlds.size()].
+void pack_share(std::span<const stepping::LocalWorld> worlds, std::span<const double> number, double* to);
+
+/// Poses and numbers of all worlds on root.
+struct GatheredPoses {
+  std::vector<core::Vec3> position;     ///< [num_bodies] m, (world, body) order
+  std::vector<core::Quat> orientation;  ///< [num_bodies] (w, x, y, z)
+  std::vector<double> number;           ///< [num_worlds]
+
+  void resize(const stepping::WorldTable& table);
+  /// Copies root's own worlds.
+  void copy(const stepping::WorldTable& table, std::span<const stepping::LocalWorld> worlds,
+            std::span<const double> numbers);
+  /// Unpacks the worlds of the other ranks. `received`: their shares by rank; `next` [num_ranks] where each
+  /// begins.
+  void unpack(const stepping::WorldTable& table, std::span<const int> placement,
+              std::span<const double> received, std::vector<std::size_t> next);
+};
 
 /// Gathers poses in one of two ways: over a tree of ranks each frame, into buffers that persist, or by
 /// messages straight to root that travel while the ranks go on. Root copies its own worlds without a message,

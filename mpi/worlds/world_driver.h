@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "mpi/balance/rebalancer.h"
+#include "mpi/balance/rebalance.h"
 #include "mpi/frame/frame_driver.h"
 #include "mpi/frame/pose_gather.h"
 #include "mpi/worlds/owned_worlds.h"
@@ -19,7 +19,7 @@ namespace pbmpi::mpi {
 
 /// The frame loop of the worlds decomposition. The stepper is borrowed and holds this rank's worlds, also
 /// after the run. advance sends no message; poses and costs are gathered over a tree of ranks, which is flat
-/// for up to 32 ranks (mpi/comm/rank_tree.h).
+/// for up to 32 ranks (mpi/comm/tree_gather.h).
 ///
 /// With an estimator (FEEC) a frame begins with: estimate -> send the estimated poses to root, without
 /// waiting -> root waits for them and hands them on, while the other ranks advance. The precise states are

@@ -32,6 +32,17 @@ ErrorSummary summarize(std::span<const double> errors, int (*band_of)(double)) {
 
 }  // namespace
 
+ErrorTable summarize(const PoseErrors& errors) {
+  ErrorTable table = {
+      summarize_positions(errors.body_position_m), summarize_orientations(errors.body_orientation_rad),
+      summarize_positions(errors.joint_position_m), summarize_orientations(errors.joint_orientation_rad)};
+  for (ErrorSummary* joints : {&table.joint_position, &table.joint_orientation}) {
+    joints->broken = errors.broken_joints;
+    joints->count += errors.broken_joints;
+  }
+  return table;
+}
+
 int position_band(double error_m) {
   if (!std::isfinite(error_m)) return num_bands - 1;
   return static_cast<int>(std::upper_bound(position_edges_m.begin(), position_edges_m.end(), error_m) -

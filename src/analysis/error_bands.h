@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "analysis/pose_errors.h"
+
 namespace pbmpi::analysis {
 
 inline constexpr int num_bands = 5;
@@ -39,5 +41,27 @@ struct ErrorSummary {
 
 ErrorSummary summarize_positions(std::span<const double> errors_m);
 ErrorSummary summarize_orientations(std::span<const double> angles_rad);
+
+/// Errors of all bodies and all joints, summarised.
+struct ErrorTable {
+  ErrorSummary body_position;      ///< [m]
+  ErrorSummary body_orientation;   ///< [rad]
+  ErrorSummary joint_position;     ///< [m] between the anchor gaps
+  ErrorSummary joint_orientation;  ///< [rad] between the axis angles
+};
+ErrorTable summarize(const PoseErrors& errors);
+
+/// The four summaries of a table, with their names in reports and files.
+struct NamedSummary {
+  const char* name;
+  const char* unit;
+  ErrorSummary ErrorTable::*summary;
+};
+inline constexpr std::array<NamedSummary, 4> error_columns = {{
+    {"body_position", "m", &ErrorTable::body_position},
+    {"body_orientation", "rad", &ErrorTable::body_orientation},
+    {"joint_position", "m", &ErrorTable::joint_position},
+    {"joint_orientation", "rad", &ErrorTable::joint_orientation},
+}};
 
 }  // namespace pbmpi::analysis

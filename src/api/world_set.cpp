@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "api/state_arrays.h"
 #include "api/version.h"
+#include "api/world_layout.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "effects/motors.h"

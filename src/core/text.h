@@ -1,6 +1,8 @@
-/// Small helpers for texts.
+/// Small helpers for texts, and numbers as text.
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <map>
 #include <string>
 #include <string_view>
@@ -27,5 +29,12 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& na
 
 /// The value with this name; empty if there is none.
 std::string value_in(const std::map<std::string, std::string>& values, const std::string& name);
+
+/// A number with as many digits as are needed to read it back to the same bits.
+template <class Number>
+std::string number_text(Number value) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
+}
 
 }  // namespace pbmpi::core

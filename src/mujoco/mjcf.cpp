@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/number_text.h"
+#include "core/text.h"
 #include "effects/effects.h"
 #include "model/shape_traits.h"
 

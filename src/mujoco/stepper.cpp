@@ -1,15 +1,30 @@
-#include "mujoco/stepper.h"
-
+#include <string>
 #include <utility>
 
 #include "core/error.h"
 #include "mujoco/mujoco_stepper.h"
 #include "mujoco/world.h"
+#include "stepping/engine/slot_stepper.h"
 
 namespace pbmpi::mujoco {
+namespace {
 
-MujocoStepper::MujocoStepper(const stepping::StepperSettings& settings, std::string warning_prefix)
-    : SlotStepper(settings), warning_prefix_(std::move(warning_prefix)) {}
+/// The worlds of one rank, stepped by MuJoCo.
+class MujocoStepper final : public stepping::SlotStepper {
+ public:
+  MujocoStepper(const stepping::StepperSettings& settings, std::string warning_prefix)
+      : SlotStepper(settings), warning_prefix_(std::move(warning_prefix)) {}
+
+ private:
+  std::unique_ptr<stepping::EngineWorld> make_world(int id, const Slot& slot, std::int64_t step) override;
+  void call_engine(int world, std::int64_t step, const std::function<void()>& call) override;
+  void advance_world(int id, Slot& slot, int num_steps, core::LapTimer& timer) override;
+  void report_loss(int world, std::int64_t step) const override;
+
+  std::string warning_prefix_;
+};
+
+}  // namespace
 
 std::unique_ptr<stepping::EngineWorld> MujocoStepper::make_world(int, const Slot& slot, std::int64_t step) {
   return std::make_unique<World>(*slot.model, *slot.targets, slot.state, step, settings_);

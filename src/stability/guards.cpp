@@ -7,7 +7,6 @@
 
 #include "geometry/body_size.h"
 #include "model/joint_gap.h"
-#include "stability/events_in.h"
 
 namespace pbmpi::stability {
 namespace {

@@ -1,5 +1,4 @@
 #include "analysis/pose_errors.h"
-#include "analysis/error_table.h"
 
 #include <gtest/gtest.h>
 

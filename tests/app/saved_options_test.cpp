@@ -1,4 +1,4 @@
-#include "app/pbmpi/options/saved_options.h"
+#include "app/pbmpi/options/options.h"
 
 #include <gtest/gtest.h>
 

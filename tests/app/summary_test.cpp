@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/summary/rank_groups_text.h"
+#include "mpi/spaces/plan/rank_groups.h"
 
 namespace pbmpi::app {
 namespace {
@@ -188,12 +188,12 @@ TEST(Summary, bounds_groups_by_sections_that_are_done_side_by_side) {
 TEST(Summary, reads_the_groups_that_a_file_names) {
   const mpi::RankGroups groups{{2, 2, 1}, {34, 33, 33}};
   EXPECT_EQ(to_text(groups), "2:34,2:33,1:33");
-  const mpi::RankGroups read = rank_groups_from_text("2:34,2:33,1:33");
+  const mpi::RankGroups read = mpi::rank_groups_from_text("2:34,2:33,1:33");
   EXPECT_EQ(read.ranks, groups.ranks);
   EXPECT_EQ(read.worlds, groups.worlds);
   EXPECT_EQ(in_words(groups), "3 groups of 1 to 2 ranks");
   for (const char* none : {"", "2", "2:", "0:3", "2;3", "two:3", "2:3,"})
-    EXPECT_EQ(rank_groups_from_text(none).num_groups(), std::string(none) == "2:3," ? 1 : 0) << none;
+    EXPECT_EQ(mpi::rank_groups_from_text(none).num_groups(), std::string(none) == "2:3," ? 1 : 0) << none;
 }
 
 TEST(Summary, no_measured_frame_divides_by_nothing) {

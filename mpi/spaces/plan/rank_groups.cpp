@@ -4,7 +4,10 @@
 #include <functional>
 #include <numeric>
 #include <queue>
+#include <sstream>
 #include <tuple>
+
+#include <fmt/core.h>
 
 #include "core/error.h"
 
@@ -124,6 +127,34 @@ int choose_ranks_per_world(std::span<const double> space_costs, int num_worlds, 
     least = time;
   }
   return chosen;
+}
+
+std::string to_text(const RankGroups& groups) {
+  std::string text;
+  for (std::size_t group = 0; group < groups.ranks.size(); ++group)
+    text += fmt::format("{}{}:{}", group == 0 ? "" : ",", groups.ranks[group], groups.worlds[group]);
+  return text;
+}
+
+RankGroups rank_groups_from_text(const std::string& text) {
+  RankGroups groups;
+  std::istringstream list(text);
+  for (std::string one; std::getline(list, one, ',');) {
+    int ranks = 0, worlds = 0;
+    char colon = 0;
+    if (!(std::istringstream(one) >> ranks >> colon >> worlds) || colon != ':' || ranks < 1 || worlds < 0)
+      return {};
+    groups.ranks.push_back(ranks);
+    groups.worlds.push_back(worlds);
+  }
+  return groups;
+}
+
+std::string in_words(const RankGroups& groups) {
+  const auto [fewest, most] = std::ranges::minmax(groups.ranks);
+  const std::string sizes = fewest == most ? std::to_string(most) : fmt::format("{} to {}", fewest, most);
+  return fmt::format("{} {} of {} {}", groups.num_groups(), groups.num_groups() == 1 ? "group" : "groups",
+                     sizes, most == 1 ? "rank" : "ranks");
 }
 
 }  // namespace pbmpi::mpi

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "model/space_map.h"
@@ -49,5 +50,13 @@ double makespan(std::span<const double> space_costs, const RankGroups& groups);
 /// The `ranks_per_world` with the least makespan, and the fewest among those within a tenth of each other:
 /// the gain of a cut must be worth its messages, whose cost is not predicted. 1 if no cut is.
 int choose_ranks_per_world(std::span<const double> space_costs, int num_worlds, int num_ranks);
+
+/// "2:34,2:33,1:33": ranks and worlds of each group, as files have them.
+std::string to_text(const RankGroups& groups);
+/// No groups where the text has another form, as in files without groups.
+RankGroups rank_groups_from_text(const std::string& text);
+
+/// "3 groups of 1 to 2 ranks"
+std::string in_words(const RankGroups& groups);
 
 }  // namespace pbmpi::mpi

@@ -1,10 +1,112 @@
 #include "mpi/spaces/step/space_step.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "effects/effects.h"
+#include "effects/motors.h"
+#include "mpi/comm/message.h"
 
 namespace pbmpi::mpi {
+
+using core::Phase;
+
+using effects::BodyPair;
+
+using effects::Resting;
+
+bool SleepAgreement::sleeps_through(std::int64_t step) {
+  if (shared_->sleepers == nullptr) return false;
+  shared_->sleepers->wake_called(step);
+  return shared_->sleepers->all_asleep();
+}
+
+void SleepAgreement::wake_touched(std::int64_t step, std::vector<model::Contact>& contacts,
+                                  core::LapTimer& timer) {
+  if (shared_->sleepers == nullptr) return;
+  const bool searches = shared_->crosses && shared_->is_root();
+  for (bool first = true;; first = false) {
+    if (!first) shared_->guard([&] { shared_->stepper->collide(contacts); });
+    timer.lap(Phase::collide);
+    std::vector<int> islands;
+    if (searches) crossing_->search(step, timer);
+    shared_->guard([&] {
+      islands = shared_->sleepers->islands_touched(contacts);
+      if (!searches) return;
+      const std::vector<int> across = shared_->sleepers->islands_touched(crossing_->contacts());
+      islands.insert(islands.end(), across.begin(), across.end());
+    });
+    if (shared_->crosses) {
+      islands = shared_->comm->allgatherv(std::span<const int>(islands));
+      std::sort(islands.begin(), islands.end());
+      timer.lap(Phase::wait);
+    }
+    if (!shared_->sleepers->wake(islands)) break;
+  }
+  touching_ = effects::touching_bodies(contacts);
+}
+
+void SleepAgreement::put_resting_to_sleep(std::int64_t step, core::LapTimer& timer) {
+  if (shared_->sleepers == nullptr) return;
+  const auto is_driven = [&](int joint) {
+    return effects::is_driven_before(shared_->stepper->model(), step + 1, joint);
+  };
+  std::vector<Resting> resting;
+  shared_->guard(
+      [&] { resting = shared_->sleepers->find_resting(shared_->own_bodies(), touching_, is_driven); });
+  timer.lap(Phase::islands);
+  if (shared_->crosses) {
+    resting = shared_->comm->allgatherv(std::span<const Resting>(resting));
+    timer.lap(Phase::wait);
+  }
+  if (!resting.empty()) resting = join(resting);
+  shared_->sleepers->put_to_sleep(resting);
+}
+
+/// Joins the ranks' parts of islands by the contacts across spaces, which only root knows.
+std::vector<Resting> SleepAgreement::join(std::span<const Resting> resting) {
+  std::vector<int> across;  // two bodies per contact
+  if (shared_->crosses && shared_->is_root()) {
+    for (const model::Contact& contact : crossing_->contacts()) {
+      across.push_back(contact.body_a);
+      across.push_back(contact.body_b);
+    }
+  }
+  if (shared_->crosses) across = shared_->comm->allgatherv(std::span<const int>(across));
+  std::vector<BodyPair> touching;
+  for (std::size_t i = 0; i < across.size(); i += 2) touching.emplace_back(across[i], across[i + 1]);
+  return effects::Sleepers::join(shared_->stepper->model().num_bodies(), resting, touching);
+}
+
+int FieldCenter::owner() const {
+  if (shared_->field == nullptr || shared_->field->follows() == model::no_body) return -1;
+  return shared_->ownership->owner[shared_->stepper->map().space_of_body(shared_->field->follows())];
+}
+
+void FieldCenter::post() {
+  const Communicator& comm = *shared_->comm;
+  if (owner() != comm.rank()) return;
+  const model::Vec3& center = shared_->stepper->state().position[shared_->field->follows()];
+  shared_->field->set_center(center);
+  // Where nothing crosses no verdict ends a step; the messages of the previous step have been received by
+  // now.
+  if (!shared_->crosses && shared_->mail) shared_->mail->finish();
+  for (int rank = 0; shared_->ownership->is_divided() && rank < comm.size(); ++rank) {
+    if (rank == comm.rank()) continue;
+    MessageWriter message;
+    message.put(std::span<const double>(center.data(), 3));
+    shared_->mail->post(message.take(), rank, center_tag);
+  }
+}
+
+void FieldCenter::take(core::LapTimer& timer) {
+  const int from = owner();
+  if (from < 0 || from == shared_->comm->rank() || !shared_->ownership->is_divided()) return;
+  MessageReader message(shared_->mail->take(from, center_tag));
+  const auto center = message.get<double>();
+  shared_->field->set_center({center[0], center[1], center[2]});
+  timer.lap(core::Phase::wait);
+}
 
 using core::Phase;
 

@@ -12,8 +12,8 @@
 #include "model/contact.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
-#include "mpi/comm/mail.h"
 #include "mpi/comm/message.h"
+#include "mpi/comm/pending_messages.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "stepping/space_stepper.h"
 

@@ -1,6 +1,7 @@
-/// What a run's file and summary say about the engine that steps it.
+/// What the files of runs and studies say about scenes and the engines that step them.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +10,13 @@
 #include "stepping/stepper.h"
 
 namespace pbmpi::app {
+
+/// The parameter under which a file keeps a scene's text: "scene_text_NAME", without a slash, which would
+/// open a group.
+inline std::string scene_text_parameter(std::string scene_name) {
+  std::ranges::replace(scene_name, '/', '.');
+  return "scene_text_" + scene_name;
+}
 
 /// The stepper's vector instructions and lanes, e.g. "avx512, 16 lanes"; empty for a stepper without a choice
 /// of instructions.

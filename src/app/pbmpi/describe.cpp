@@ -7,10 +7,9 @@
 #include <map>
 #include <sstream>
 
-#include "app/common/estimate_spec.h"
+#include "app/common/step_arguments.h"
 #include "app/pbmpi/options/run_options.h"
 #include "app/pbmpi/run_parameters.h"
-#include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
 #include "effects/run_plan.h"
 #include "engines/optional_engines.h"

@@ -11,6 +11,25 @@ constexpr int bar_width = 30;
 
 }  // namespace
 
+void EstimateMonitor::poses(std::int64_t frame, stepping::PoseKind kind,
+                            std::span<const model::Vec3> position, std::span<const model::Quat> orientation) {
+  if (frame < num_warmup_) return;
+  if (kind == stepping::PoseKind::estimate) {
+    position_.assign(position.begin(), position.end());
+    orientation_.assign(orientation.begin(), orientation.end());
+  } else {
+    errors_.append(analysis::compare_bodies({position_, orientation_}, {position, orientation}));
+  }
+}
+
+analysis::ErrorSummary EstimateMonitor::position_defect() const {
+  return analysis::summarize_positions(errors_.body_position_m);
+}
+
+analysis::ErrorSummary EstimateMonitor::orientation_defect() const {
+  return analysis::summarize_orientations(errors_.body_orientation_rad);
+}
+
 RunProgress::RunProgress(std::ostream& out, ProgressForm form, std::int64_t num_frames,
                          std::int64_t first_frame)
     : line_(out, form),

@@ -10,8 +10,6 @@
 #include "app/common/version.h"
 #include "app/pbmpi/checkpoint_keeper.h"
 #include "app/pbmpi/describe.h"
-#include "app/pbmpi/estimate_monitor.h"
-#include "app/pbmpi/gather_plan.h"
 #include "app/pbmpi/options/options.h"
 #include "app/pbmpi/progress.h"
 #include "app/pbmpi/run_parameters.h"

@@ -3,19 +3,27 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <variant>
 
+#include <nlohmann/json.hpp>
+
 #include "app/common/engine_texts.h"
-#include "app/common/estimate_spec.h"
-#include "app/common/scene_parameter.h"
+#include "app/common/json_text.h"
+#include "app/common/step_arguments.h"
 #include "app/common/version.h"
 #include "app/pbmpi/options/run_options.h"
-#include "app/summary/rank_groups_text.h"
 #include "effects/effect_choices.h"
 #include "effects/effects.h"
 #include "mpi/comm/session.h"
+#include "mpi/spaces/plan/rank_groups.h"
 #include "stepping/step_options.h"
+
+namespace pbmpi::effects {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(PassTally, worlds, idle_worlds, counts)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RunPlan, num_worlds, tallies)
+}  // namespace pbmpi::effects
 
 namespace pbmpi::app {
 namespace {
@@ -41,6 +49,18 @@ Parameter step_parameter(const std::string& prefix, const stepping::StepOption& 
 }
 
 }  // namespace
+
+effects::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const stepping::LocalWorld> own) {
+  effects::RunPlan mine;
+  for (const stepping::LocalWorld& world : own) mine.add(*world.model);
+  const std::string line = json_text(nlohmann::json(mine)) + "\n";
+  const std::vector<char> lines = comm.allgatherv(std::span<const char>(line));
+  std::istringstream stream(std::string(lines.begin(), lines.end()));
+  effects::RunPlan plan;
+  for (std::string one; std::getline(stream, one);)
+    plan.add(nlohmann::json::parse(one).get<effects::RunPlan>());
+  return plan;
+}
 
 io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& plan) {
   const RunSpec& spec = work.spec;

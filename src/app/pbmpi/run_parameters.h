@@ -1,6 +1,7 @@
-/// Parameters, attributes and optional columns of a run's file.
+/// Parameters, attributes and optional columns of a run's file, and the plan of its steps.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "app/common/provenance.h"
@@ -9,6 +10,9 @@
 #include "io/run/run_file.h"
 
 namespace pbmpi::app {
+
+/// Collective. The plan of all worlds; `own`: those that this rank owns. The same on every rank.
+effects::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const stepping::LocalWorld> own);
 
 /// The columns that only some runs' files have. `plan`: of all worlds.
 io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& plan);

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/common/estimate_spec.h"
+#include "app/common/step_arguments.h"
 #include "engines/stepper_factory.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/spaces/space_driver.h"

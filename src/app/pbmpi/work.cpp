@@ -13,7 +13,7 @@
 #include <fmt/core.h>
 
 #include "app/common/version.h"
-#include "app/pbmpi/options/saved_options.h"
+#include "app/pbmpi/options/options.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/system/mounts.h"

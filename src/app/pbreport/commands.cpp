@@ -4,8 +4,7 @@
 #include <ostream>
 
 #include "app/pbreport/python_report.h"
-#include "app/pbreport/run/options.h"
-#include "app/pbreport/run/report.h"
+#include "app/pbreport/run_report.h"
 #include "core/system/mounts.h"
 #include "core/system/paths.h"
 

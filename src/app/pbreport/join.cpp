@@ -4,9 +4,9 @@
 #include <ostream>
 
 #include "app/common/options.h"
-#include "app/common/python_program.h"
 #include "app/common/text_output.h"
 #include "app/pbreport/commands.h"
+#include "app/pbreport/python_report.h"
 #include "io/file/output_target.h"
 #include "io/hdf5/file_types.h"
 #include "io/run/run_data.h"

@@ -1,5 +1,4 @@
-/// Reports on studies and on sets of runs: the Python package src/app/reports, which h5py and numpy serve
-/// better than C++.
+/// Reports in Python, which h5py and numpy serve better than C++: the package src/app/reports.
 #pragma once
 
 #include <string>
@@ -17,5 +16,10 @@ std::string report_of_study_in(const std::vector<std::string>& args);
 /// Returns only by an exception: core::InputError for a damaged file, core::RunError if Python cannot be
 /// started.
 core::ExitCode run_python_report(const std::string& command, const std::vector<std::string>& args);
+
+/// Runs a report to its end, which writes the file `output` and says what is wrong. It ends with this
+/// program, and gets no signals that are sent to this program's group. Throws core::RunError if it was killed
+/// or cannot be started.
+core::ExitCode run_report_for(const std::string& output, const std::vector<std::string>& words);
 
 }  // namespace pbmpi::app

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 FRAME_PARTS = ("step", "harness", "agreement", "gather", "unpack", "balance", "verdict")
-USUAL_RADIX, USUAL_PIECE_BYTES = 32, 1 << 20  # of mpi/comm/rank_tree.h and tree_gather.h
+USUAL_RADIX, USUAL_PIECE_BYTES = 32, 1 << 20  # of mpi/comm/tree_gather.h
 AGREEMENT_BYTES, VERDICT_BYTES = 6 * 8, 32  # what mpi::FrameDriver sends in a frame
 
 # Memory of a run, in bytes. Of a world on every rank: its owner; where its bodies begin, in the driver, in the file's setup and in its
@@ -103,7 +103,7 @@ class Load:
         return -(-self.worlds // self.ranks)
 
     def world_bytes(self):
-        """Sent to root in a frame: a number, and position and orientation of each body (mpi/frame/pose_shares.h)."""
+        """Sent to root in a frame: a number, and position and orientation of each body (mpi/frame/pose_gather.h)."""
         return 8 * (1 + 7 * self.bodies)
 
 
@@ -124,7 +124,7 @@ class Stream(NamedTuple):
 
 class Gather:
     """How poses and costs reach root: each rank but root sends to its parent what it and those below it have, in pieces. The parent has the
-    same number in the radix but for the lowest nonzero digit, which is 0 (mpi/comm/rank_tree.h). `linear`: each rank sends all it has
+    same number in the radix but for the lowest nonzero digit, which is 0 (mpi/comm/tree_gather.h). `linear`: each rank sends all it has
     straight to root in one message, as Open MPI's MPI_Gatherv does."""
 
     def __init__(self, load, linear=False):

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "app/summary/observed_frames.h"
+#include "app/summary/run_summary.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/worlds/world_driver.h"
 #include "stepping/frame.h"

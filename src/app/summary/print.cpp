@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/common/json_text.h"
-#include "app/summary/rank_groups_text.h"
 #include "app/summary/run_summary.h"
+#include "mpi/spaces/plan/rank_groups.h"
 
 namespace pbmpi::app {
 namespace {

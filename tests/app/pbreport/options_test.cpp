@@ -1,4 +1,4 @@
-#include "app/pbreport/run/options.h"
+#include "app/pbreport/run_report.h"
 
 #include <gtest/gtest.h>
 

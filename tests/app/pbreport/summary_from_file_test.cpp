@@ -1,4 +1,4 @@
-#include "app/pbreport/run/summary_from_file.h"
+#include "app/pbreport/summary_from_file.h"
 
 #include <gtest/gtest.h>
 

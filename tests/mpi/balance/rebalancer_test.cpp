@@ -1,4 +1,4 @@
-#include "mpi/balance/rebalancer.h"
+#include "mpi/balance/rebalance.h"
 
 #include <gtest/gtest.h>
 

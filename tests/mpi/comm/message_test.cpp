@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "mpi/comm/mail.h"
+#include "mpi/comm/pending_messages.h"
 #include "mpi/spaces/step/wire.h"
 
 namespace pbmpi::mpi {

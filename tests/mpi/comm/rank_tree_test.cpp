@@ -1,4 +1,4 @@
-#include "mpi/comm/rank_tree.h"
+#include "mpi/comm/tree_gather.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/actors/copies.h"
+#include "scenes/actors/variation.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/format/event_reader.h"
+#include "scenes/format/plans.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/format/pair_reader.h"
+#include "scenes/format/plans.h"
 
 #include <gtest/gtest.h>
 

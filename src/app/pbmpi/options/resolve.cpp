@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "app/common/estimate_spec.h"
+#include "app/common/step_arguments.h"
 #include "app/pbmpi/options/options.h"
 #include "app/pbmpi/options/run_options.h"
 #include "core/error.h"

@@ -1,4 +1,4 @@
-#include "app/pbmpi/options/saved_options.h"
+#include "app/pbmpi/options/options.h"
 
 #include <map>
 #include <set>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/common/estimate_spec.h"
+#include "app/common/step_arguments.h"
 #include "app/pbmpi/options/run_options.h"
 #include "core/error.h"
 #include "stepping/names.h"

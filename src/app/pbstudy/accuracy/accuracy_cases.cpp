@@ -5,7 +5,7 @@
 #include <map>
 #include <span>
 
-#include "app/common/estimate_spec.h"
+#include "app/common/step_arguments.h"
 #include "core/error.h"
 #include "scenes/scene.h"
 

@@ -27,5 +27,6 @@ struct AccuracyOptions : StudyOptions {
 AccuracyOptions parse_accuracy_options(const std::vector<std::string>& args);
 
 Manual accuracy_manual();
+Study run_accuracy;
 
 }  // namespace pbmpi::app

@@ -5,8 +5,6 @@
 
 #include "app/common/provenance.h"
 #include "app/pbstudy/calibrate/calibrate_cases.h"
-#include "app/pbstudy/calibrate/calibrate_options.h"
-#include "app/pbstudy/study/studies.h"
 #include "app/pbstudy/study/study_runner.h"
 #include "app/pbstudy/study/table_columns.h"
 #include "core/statistics.h"

@@ -3,12 +3,30 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/manual/manual.h"
+#include "app/pbstudy/study/study_options.h"
 #include "mpi/comm/communicator.h"
 
 namespace pbmpi::app {
+
+struct CalibrateOptions {
+  int repeats = 9;            ///< rounds in which each case is timed once
+  int largest_ranks = 16384;  ///< the most ranks for which root's work is timed
+  std::uint64_t seed = 1;     ///< for the order of cases in a round
+  std::string output;
+  CommonOptions common;
+  std::string command_line;
+};
+
+/// Throws core::InputError with one clear message.
+CalibrateOptions parse_calibrate_options(const std::vector<std::string>& args);
+
+Manual calibrate_manual();
+Study run_calibrate;
 
 /// The part that was timed.
 enum class TimedPart {

@@ -3,9 +3,9 @@
 
 #include "app/pbstudy/calibrate/calibrate_cases.h"
 #include "core/clock.h"
-#include "mpi/balance/rebalancer.h"
+#include "mpi/balance/rebalance.h"
 #include "mpi/frame/frame_driver.h"
-#include "mpi/frame/pose_shares.h"
+#include "mpi/frame/pose_gather.h"
 #include "synthetic/fixed_cost_stepper.h"
 
 namespace pbmpi::app {

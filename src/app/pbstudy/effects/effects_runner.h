@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "analysis/error_table.h"
+#include "analysis/error_bands.h"
 #include "app/pbstudy/effects/effects_cases.h"
 #include "app/pbstudy/study/case_stepper.h"
 #include "core/instruction_counter.h"
@@ -39,11 +39,5 @@ static_assert(std::is_trivially_copyable_v<EffectResult>);
 EffectResult run_effect_case(const EffectCase& one, const StudyScene& scene, const Reference& baseline,
                              const stepping::StepperSettings& baseline_stepper, int repeats,
                              core::InstructionCounter& counter);
-
-/// Columns with one row per case (io/SCHEMA.md), with instructions only if `counted`. `results` [num_cases]
-/// in the order of the cases.
-std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scenes,
-                                            const std::vector<EffectCase>& cases,
-                                            const std::vector<EffectResult>& results, bool counted);
 
 }  // namespace pbmpi::app

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/pose_errors.h"
-#include "app/common/estimate_spec.h"
+#include "app/common/step_arguments.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "model/state.h"
 #include "stepping/stepper.h"

@@ -12,8 +12,13 @@
 #include "app/common/options.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "core/error.h"
+#include "mpi/comm/communicator.h"
 
 namespace pbmpi::app {
+
+/// A study. Collective; `args` follow its name. Throws core::InputError and core::RunError, the same on every
+/// rank.
+using Study = core::ExitCode(const mpi::Communicator& comm, const std::vector<std::string>& args);
 
 /// For the manuals.
 inline constexpr const char* one_case_a_rank =

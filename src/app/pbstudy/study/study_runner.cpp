@@ -1,13 +1,14 @@
 #include "app/pbstudy/study/study_runner.h"
 
 #include <array>
+#include <atomic>
+#include <csignal>
 #include <iostream>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "app/common/engine_texts.h"
-#include "app/common/scene_parameter.h"
 #include "app/common/version.h"
 #include "core/clock.h"
 #include "core/error.h"
@@ -16,6 +17,31 @@
 #include "engines/shared_scene.h"
 
 namespace pbmpi::app {
+namespace {
+
+std::atomic<bool> stop_requested{false};  // a signal handler can reach nothing but globals
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void request_stop(int) { stop_requested = true; }
+
+void install(void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  sigfillset(&action.sa_mask);
+  sigaction(SIGUSR2, &action, nullptr);
+}
+
+}  // namespace
+
+StopRequest::StopRequest() {
+  stop_requested = false;
+  install(request_stop);
+}
+
+StopRequest::~StopRequest() { install(SIG_DFL); }
+
+bool StopRequest::is_set() const { return stop_requested; }
 
 using io::Parameter;
 

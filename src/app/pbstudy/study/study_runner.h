@@ -15,7 +15,6 @@
 #include "app/common/provenance.h"
 #include "app/pbstudy/study/case_journal.h"
 #include "app/pbstudy/study/case_outcome.h"
-#include "app/pbstudy/study/stop_request.h"
 #include "app/pbstudy/study/study_options.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "core/error.h"
@@ -25,6 +24,19 @@
 #include "mpi/comm/shared_counter.h"
 
 namespace pbmpi::app {
+
+/// While an object of this class lives, USR2 is noted: a job script sends it to mpirun when the time is up,
+/// and mpirun passes it to all ranks. At most one object at a time. INT and TERM end the process at once; the
+/// outcomes so far are in the journal.
+class StopRequest {
+ public:
+  StopRequest();
+  ~StopRequest();
+  StopRequest(const StopRequest&) = delete;
+  StopRequest& operator=(const StopRequest&) = delete;
+
+  bool is_set() const;
+};
 
 /// What a study adds to the common content of all studies' files, and to the text printed at the end.
 struct StudyContent {

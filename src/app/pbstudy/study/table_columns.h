@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "analysis/error_table.h"
+#include "analysis/error_bands.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "io/table/table_file.h"
 #include "stepping/step_options.h"

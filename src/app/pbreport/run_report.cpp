@@ -1,12 +1,48 @@
-#include "app/pbreport/run/options.h"
+#include "app/pbreport/run_report.h"
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <ostream>
 
 #include "app/common/options.h"
-#include "core/error.h"
+#include "app/common/text_output.h"
+#include "app/pbreport/python_report.h"
+#include "app/pbreport/summary_from_file.h"
+#include "core/system/descriptor.h"
+#include "io/run/xdmf.h"
 
 namespace pbmpi::app {
 
 namespace po = boost::program_options;
 using core::require_input;
+
+namespace {
+
+struct Close {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// An open file without a name, which programs that this program starts inherit.
+using UnnamedFile = std::unique_ptr<std::FILE, Close>;
+
+UnnamedFile stored(const std::string& text) {
+  UnnamedFile file(std::tmpfile());
+  if (!file || std::fputs(text.c_str(), file.get()) < 0 || std::fflush(file.get()) != 0)
+    throw core::RunError("no temporary file for the page can be written: " + core::reason_of(errno));
+  return file;
+}
+
+/// Writes the page of the run in `file` to `page`: plots and a 3D replay, by the Python package
+/// src/app/reports.
+core::ExitCode write_page(const std::string& file, const std::string& page, const RunSummary& summary) {
+  const UnnamedFile numbers = stored(to_json(summary));
+  const std::string path_of_numbers = "/dev/fd/" + std::to_string(fileno(numbers.get()));
+  return run_report_for(page, {"report", file, page, path_of_numbers});
+}
+
+}  // namespace
 
 po::options_description report_options_description() {
   po::options_description summary("The summary");
@@ -51,6 +87,27 @@ ReportOptions parse_report_options(const std::vector<std::string>& args) {
                                        "': pbreport reads one file; see --help");
   options.file = files.front();
   return options;
+}
+
+core::ExitCode run_report(const ReportOptions& options, std::ostream& out) {
+  if (options.action == ReportAction::version) {
+    out << version_line("pbreport") << "\n";
+    return core::ExitCode::done;
+  }
+  const io::RunData run = io::read_run(options.file);
+  const RunSummary summary = summary_from_file(run, options.file);
+  if (options.html) {
+    const core::ExitCode code = write_page(options.file, *options.html, summary);
+    if (code != core::ExitCode::done) return code;
+  }
+  if (options.xdmf) io::write_xdmf(options.file, *options.xdmf);
+  if (options.json) {
+    out << to_json(summary);
+  } else if (!options.quiet) {
+    out << to_text(summary);
+  }
+  require_printed(out, "the summary");
+  return core::ExitCode::done;
 }
 
 }  // namespace pbmpi::app

@@ -1,4 +1,4 @@
-#include "app/pbreport/run/summary_from_file.h"
+#include "app/pbreport/summary_from_file.h"
 
 #include <algorithm>
 #include <memory>
@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "analysis/pose_errors.h"
-#include "app/summary/rank_groups_text.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "effects/effect_choices.h"
+#include "mpi/spaces/plan/rank_groups.h"
 #include "scenes/parameter_table.h"
 #include "scenes/scene.h"
 #include "stepping/frame.h"
@@ -135,7 +135,7 @@ void read_settings(const io::RunData& run, const std::string& path, RunSummary& 
   summary.precision = core::value_in(run.parameters, "precision");
   summary.simd = core::value_in(run.parameters, "simd");
   if (core::value_in(run.parameters, "decompose") == "spaces") summary.decomposition = "spaces";
-  summary.groups = rank_groups_from_text(core::value_in(run.parameters, "rank_groups"));
+  summary.groups = mpi::rank_groups_from_text(core::value_in(run.parameters, "rank_groups"));
   if (run.parameters.contains("threads")) summary.threads = number_of<int>(run, "threads", path);
   summary.iterations = number_of<int>(run, "iterations", path);
   summary.substeps = number_of<int>(run, "substeps", path);

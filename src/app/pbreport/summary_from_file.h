@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "app/summary/observed_frames.h"
+#include "app/summary/run_summary.h"
 #include "io/run/run_data.h"
 
 namespace pbmpi::app {

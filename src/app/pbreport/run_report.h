@@ -1,11 +1,14 @@
-/// The command line of "pbreport [report] FILE".
+/// "pbreport [report] FILE": the summary of one run, its page, its sidecar.
 #pragma once
 
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <boost/program_options.hpp>
+
+#include "core/error.h"
 
 namespace pbmpi::app {
 
@@ -25,5 +28,9 @@ ReportOptions parse_report_options(const std::vector<std::string>& args);
 
 /// All options, in groups.
 boost::program_options::options_description report_options_description();
+
+/// Prints the summary (or the version) to `out`. Throws core::InputError: a file that is not a run's, an
+/// output that cannot be written.
+core::ExitCode run_report(const ReportOptions& options, std::ostream& out);
 
 }  // namespace pbmpi::app
