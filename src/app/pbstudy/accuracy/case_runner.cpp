@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/invariants.h"
 #include "core/clock.h"
 #include "core/statistics.h"
 #include "engines/stepper_factory.h"
@@ -22,24 +21,17 @@ using model::State;
 /// Raises `most` to `value`; a NaN counts as infinite.
 void raise(double& most, double value) { most = std::isnan(value) ? INFINITY : std::max(most, value); }
 
-/// Records what a frame did to joints, contacts, energy, momentum and segments.
+/// Records what a frame did to joints, contacts and energy.
 void observe(const CaseStepper& stepper, const Worlds& worlds, const States& nature, CaseResult& result) {
   for (std::size_t i = 0; i < worlds.size(); ++i) {
     const auto world = static_cast<int>(i);
     const stepping::Observables seen = stepper.observables(world);
-    const State& state = stepper.shown(world);
     result.rows += seen.rows;
     result.row_visits += seen.row_visits;
     raise(result.max_joint_gap_m, seen.joint_gap_m);
     raise(result.max_penetration_m, seen.max_penetration_m);
-    const model::MechanicsMeter meter(*worlds[i]);
-    const model::Mechanics wanted = meter.measure(nature[i]);
-    raise(result.energy_change_j, std::abs(seen.energy_j - wanted.energy_j));
-    raise(result.momentum_change_ns, (meter.measure(state).linear_momentum - wanted.linear_momentum).norm());
-    const auto segments = analysis::human_segments(*worlds[i]);
-    for (const double stretch : analysis::segment_stretch(*worlds[i], segments, view_of(state))) {
-      raise(result.max_stretch, stretch);
-    }
+    const double wanted_j = model::MechanicsMeter(*worlds[i]).measure(nature[i]).energy_j;
+    raise(result.energy_change_j, std::abs(seen.energy_j - wanted_j));
   }
 }
 
@@ -190,8 +182,7 @@ CaseResult account_of(const Nature& nature) {
 CaseResult unobserved() {
   CaseResult result;
   for (double CaseResult::*number : {&CaseResult::rows, &CaseResult::row_visits, &CaseResult::max_joint_gap_m,
-                                     &CaseResult::max_penetration_m, &CaseResult::energy_change_j,
-                                     &CaseResult::momentum_change_ns, &CaseResult::max_stretch})
+                                     &CaseResult::max_penetration_m, &CaseResult::energy_change_j})
     result.*number = NAN;
   result.rest = {NAN, NAN, NAN, NAN};
   result.within.fill(NAN);

@@ -61,8 +61,6 @@ struct CaseResult {
   double row_visits = 0;                              ///< rows x sweeps of a frame, until the result is shown
   double max_joint_gap_m = 0, max_penetration_m = 0;  ///< after one frame from nature's states
   double energy_change_j = 0;     ///< largest distance from nature's energy after one frame
-  double momentum_change_ns = 0;  ///< largest distance from nature's linear momentum
-  double max_stretch = 0;         ///< of a human segment after one frame
   RestResult rest;                ///< for a setting
   double solve_iterations = NAN;  ///< a step, for is_own(); otherwise NaN
   /// Of the bodies of all measured frames, for each of asked_m.
