@@ -1,5 +1,5 @@
-/// Tells the Valgrind tool pbvalue (src/prediction/tool) what the program is doing. Without Valgrind a mark
-/// is a handful of instructions that change nothing.
+/// Tells the Valgrind tool pbvalue (jobs/paper/pbvalue/tool) what the program is doing. Without Valgrind a
+/// mark is a handful of instructions that change nothing.
 #pragma once
 
 #include "core/mark_codes.h"
