@@ -1,15 +1,13 @@
-"""Tables and the diagram of what accuracy costs: errors by nature from `pbstudy accuracy`, and joint gaps from `bench_worlds --substeps`."""
+"""Tables of what accuracy costs: errors by nature from `pbstudy accuracy`, and joint gaps from `bench_worlds --substeps`."""
 import re
 import sys
 
 import h5py
 import numpy as np
 
-from tables import diagrams, programs, stability
+from tables import programs, stability
 
 ONLY_SETTINGS = ("--own-iterations", "0", "--rest-seconds", "0")
-DEFAULT = ("sor", 1, 14, 1)
-DRAWN = ("CrashSk", "CrashWa", "Fight")
 # Step of the scene over the step, substeps x iterations.
 LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 5, 1),
          ("sor", 2, 7, 1), ("sor", 4, 3, 1), ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
@@ -82,14 +80,13 @@ def setting_of(case):
 
 
 def front():
-    """Error by nature and time of some settings in all scenes; draws the diagram of docs/accuracy.md."""
+    """Error by nature and time of some settings in all scenes."""
     with programs.Folder() as folder:
-        cases, scenes = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "quick", "sor", "--law", "soft", "--precision", "double",
-                                                "--iterations", "5", "20", "80", "--substeps", "1", "2", "3", "4", "5", "7", "14", "--estimates", "0",
-                                                "--rest-seconds", "0", "--repeats", "3")
+        cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "quick", "sor", "--law", "soft", "--precision", "double",
+                                           "--iterations", "5", "20", "80", "--substeps", "1", "2", "3", "4", "5", "7", "14", "--estimates", "0",
+                                           "--rest-seconds", "0", "--repeats", "3")
     found = {(case["scene"], setting_of(case)): case for case in cases if case["kind"] == "setting"}
     unit = {scene: found[scene, ("quick", 1, 1, 20)]["frame_time_median"] for scene in programs.SCENES}
-    diagrams.fronts("docs/accuracy.svg", {scene: of_scene(scene, found, unit[scene], scenes[scene]["uncertainty_m"]) for scene in DRAWN})
 
     def cell(scene, line):
         case = found[scene, line]
@@ -127,13 +124,6 @@ def fine():
                           [["default", *(errors(scene, False) for scene in programs.SCENES)],
                            [f"`--approach {FINE}`", *(errors(scene, True) for scene in programs.SCENES)],
                            ["its time over the default's", *(times(scene) for scene in programs.SCENES)]])
-
-
-def of_scene(scene, found, unit_s, uncertainty_m):
-    """What diagrams.fronts() draws of a scene."""
-    points = [{"stepper": setting[0], "cut": setting[1], "is_default": setting == DEFAULT, "time": case["frame_time_median"] / unit_s,
-               "error_mm": 1e3 * case["defect_body_position_rms"]} for (its_scene, setting), case in found.items() if its_scene == scene]
-    return {"points": points, "uncertainty_mm": 1e3 * uncertainty_m}
 
 
 def estimates():

@@ -2,6 +2,8 @@
 import functools
 import json
 
+import h5py
+
 from tables import programs, stability
 
 SETTINGS = ("--iterations", "5", "20", "80", "--substeps", "1", "14", "--max-sweeps", "80", "--dt", "0.01", "--estimates", "0", "--precision", "double",
@@ -30,10 +32,16 @@ def scenes():
 
 @functools.cache
 def hard_cases():
+    """Of the study of hard cases: counts by setting, differences, and {case: {setting: verdict}}."""
     with programs.Folder() as folder:
         path = stability.study(folder, "--most-work", MOST_WORK, "--setting", *MAP)
         found = json.loads(programs.pbreport("engines", path, "--json"))
-    return found["hard_cases"], found["differences"]
+        with h5py.File(path) as file:
+            columns = [file["cases"][name].asstr()[:] for name in ("scene", "setting", "verdict")]
+    verdicts = {}
+    for scene, setting, verdict in zip(*columns):
+        verdicts.setdefault(scene.removeprefix("hard/"), {})[setting] = verdict
+    return found["hard_cases"], found["differences"], verdicts
 
 
 def engines_of_scenes():
@@ -71,6 +79,13 @@ def hard_map():
         counts = [one["groups"][group] for group in groups] + [one["all"]]
         rows.append([one["setting"], *(" / ".join(str(count[verdict]) for verdict in stability.VERDICTS) for count in counts)])
     return programs.table(["pass / degraded / broken", *groups, "all"], rows)
+
+
+def cases():
+    """The verdict on each case under each engine; cases that are too large for this study are left out."""
+    verdicts = {case: by_setting for case, by_setting in hard_cases()[2].items() if set(by_setting.values()) != {"n/a"}}
+    settings = list(next(iter(verdicts.values())))
+    return programs.table(["case", *settings], [[f"`{case}`", *by_setting.values()] for case, by_setting in sorted(verdicts.items())])
 
 
 def can():

@@ -7,11 +7,12 @@ import unittest
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(SOURCE / "docs"))
 
-import figures  # noqa: E402
+from tables import kept  # noqa: E402
+from tables.entries import DIAGRAMS, ENTRIES, diagram_file, drawn  # noqa: E402
 
 DOCUMENTS = [SOURCE / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "jobs/README.md", "io/SCHEMA.md",
-                                        "scenes/FORMAT.md")] + sorted((SOURCE / "docs").glob("*.md"))
-PAGES = [SOURCE / "README.md"] + sorted((SOURCE / "docs").glob("*.md"))
+                                        "scenes/FORMAT.md")] + sorted((SOURCE / "docs").rglob("*.md"))
+PAGES = [SOURCE / "README.md"] + sorted((SOURCE / "docs").rglob("*.md"))
 PLACE = re.compile(r"^<!-- figures: (\w+) -->\n(.*?)^<!-- end figures -->$", re.MULTILINE | re.DOTALL)
 # Tables whose numbers no program computes, such as exit codes, or figures of variants that are not in the program: (page, first
 # line of the table).
@@ -56,7 +57,7 @@ class Documents(unittest.TestCase):
         for page in PAGES:
             for name, _ in PLACE.findall(page.read_text(encoding="utf-8")):
                 places.setdefault(name, []).append(page.relative_to(SOURCE).as_posix())
-        self.assertEqual(places, {name: [entry.page] for name, entry in figures.ENTRIES.items()})
+        self.assertEqual(places, {name: [entry.page] for name, entry in ENTRIES.items()})
 
     def test_markers_come_in_pairs(self):
         for page in PAGES:
@@ -70,13 +71,32 @@ class Documents(unittest.TestCase):
                 self.assertRegex(content, r"^\|", f"{name}: run docs/figures.py {name}")
                 caption = content.strip().splitlines()[-1]
                 self.assertRegex(caption, r"^\*`.*; revision [0-9a-f]{7}", name)
-                if figures.ENTRIES[name].has_clock:
+                if ENTRIES[name].has_clock:
                     self.assertRegex(caption, r"\d+ cores, .*, \d{4}-\d\d-\d\d, load", name)
+
+    def test_a_long_table_has_its_cells_in_a_file(self):
+        long = {name: entry.page for name, entry in ENTRIES.items() if entry.page.startswith(kept.LONG)}
+        for name, page in long.items():
+            self.assertEqual(kept.data_file(name).read_text(encoding="utf-8"), kept.as_csv(page, name), f"run docs/figures.py {name}")
+        files = {path.stem for folder in ("pages", "data") for path in (SOURCE / "docs/tables" / folder).iterdir()}
+        self.assertEqual(files, set(long), "docs/tables/pages and docs/tables/data")
+
+    def test_every_diagram_is_drawn_from_the_tables_as_they_are(self):
+        for name in DIAGRAMS:
+            self.assertEqual(diagram_file(name).read_text(encoding="utf-8"), drawn(name), f"docs/images/{name}.svg: run docs/figures.py --diagrams")
+        self.assertEqual({path.stem for path in (SOURCE / "docs/images").glob("*.svg")}, set(DIAGRAMS))
+
+    def test_every_image_is_shown_on_a_page(self):
+        shown = {name for page in PAGES for name in re.findall(r"images/([\w.-]+)", page.read_text(encoding="utf-8"))}
+        files = {path.name: path.stat().st_size for path in (SOURCE / "docs/images").iterdir()}
+        self.assertEqual(shown, set(files))
+        self.assertLess(max(files.values()), 2_000_000)
 
     def test_links_lead_somewhere(self):
         for page in DOCUMENTS:
             text = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
-            for target in re.findall(r"\]\(([^)\s]+)\)", text):
+            for target in re.findall(r"\]\(([^)\s]+)\)|<img src=\"([^\"]+)\"", text):
+                target = "".join(target)
                 if re.match(r"https?:", target):
                     continue
                 path = (page.parent / target.split("#")[0]).resolve() if not target.startswith("#") else page
