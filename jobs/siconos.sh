@@ -53,7 +53,7 @@ fi
 
 # What all three have: a frame is a step, so that a step stands between two states of the file.
 common=(--steps-per-frame 1 --warmup 0 --record contacts --quiet --progress never)
-# Rigid rows with the scene's ERP and CFM, cones of friction, one solve a step: the problem that docs/siconos.md writes down.
+# Rigid rows with the scene's ERP and CFM, cones of friction, one solve a step: the problem that docs/research/siconos.md writes down.
 reference=(--law coulomb --iterations "$sweeps")
 
 # record SCENE SECONDS option...

@@ -2,7 +2,7 @@
 import collections
 
 from tables import (accuracy, bars, choices, effects, engines, engines_speed, exact, fronts, guards, kept, maps, paper, prediction, programs, scaling,
-                    scenes, siconos, speed, stability)
+                    scenes, schemes, siconos, speed, stability)
 
 # page: below the root. make: computes the lines of the table. has_clock: whether times are among its figures. commands: for
 # a reader who wants to measure it by hand.
@@ -10,7 +10,7 @@ Entry = collections.namedtuple("Entry", "page make has_clock commands")
 
 ENTRIES = {
     "islands": Entry("docs/scenes.md", scenes.islands, False,
-                     ["pbmpi --scene SCENE --stepper quick", "jobs/paper/paper.py islands SCENE.h5"]),
+                     ["pbmpi --scene SCENE --stepper quick", "pbreport islands SCENE.h5"]),
     "plans": Entry(f"{kept.LONG}plans.md", scenes.plans, False, ["pbmpi --scene SCENE --describe"]),
     "effects": Entry(f"{kept.LONG}effects.md", effects.costs, True,
                      ["pbstudy effects --stepper sor --repeats 5", "pbreport effects.h5 --markdown"]),
@@ -43,12 +43,12 @@ ENTRIES = {
     "guards": Entry(f"{kept.LONG}guards.md", guards.guards, False, ["pbmpi --scene CASE --steps-per-frame 3 --stepper ..."]),
     "speed": Entry(f"{kept.LONG}speed.md", speed.against_bare, True,
                    ["bench_worlds SCENE 0 10 3", "pbstudy accuracy --scene SCENE"]),
-    "prediction_small": Entry("docs/prediction.md", prediction.small, False,
-                              ["jobs/paper/predict.py --scene 2-Cars --detail-scene none"]),
-    "prediction_bars": Entry("docs/prediction.md", prediction.bars, True, ["jobs/paper/predict.py --jobs 2"]),
-    "prediction_engines": Entry("docs/prediction.md", prediction.engines, True, ["jobs/paper/predict.py --jobs 2"]),
-    "prediction_errors": Entry("docs/prediction.md", prediction.errors, True, ["jobs/paper/predict.py --jobs 2"]),
-    "prediction_statements": Entry("docs/prediction.md", prediction.statements, True, ["jobs/paper/predict.py --jobs 2"]),
+    "prediction_small": Entry("docs/research/prediction.md", prediction.small, False,
+                              ["pbstudy prediction --scene 2-Cars --detail-scene none"]),
+    "prediction_bars": Entry("docs/research/prediction.md", prediction.bars, True, ["mpirun -n 2 pbstudy prediction"]),
+    "prediction_engines": Entry("docs/research/prediction.md", prediction.engines, True, ["mpirun -n 2 pbstudy prediction"]),
+    "prediction_errors": Entry("docs/research/prediction.md", prediction.errors, True, ["mpirun -n 2 pbstudy prediction"]),
+    "prediction_statements": Entry("docs/research/prediction.md", prediction.statements, True, ["mpirun -n 2 pbstudy prediction"]),
     "paper_counts": Entry(f"{kept.LONG}paper_counts.md", paper.counts, False, ["jobs/paper.sh --without-clock"]),
     "paper_clock": Entry(f"{kept.LONG}paper_clock.md", paper.clock, True, ["jobs/paper.sh"]),
     "paper_instructions": Entry(f"{kept.LONG}paper_instructions.md", paper.instructions, True, ["jobs/paper.sh"]),
@@ -64,9 +64,9 @@ ENTRIES = {
     "engines_cases": Entry(f"{kept.LONG}engines_cases.md", engines.cases, False,
                            [f"pbstudy stability --most-work {engines.MOST_WORK} --setting {' '.join(engines.MAP)}"]),
     "engines_can": Entry("docs/engines.md", engines.can, False, ["pbreport engines accuracy.h5 stability.h5"]),
-    "siconos_residuals": Entry("docs/siconos.md", siconos.residuals, True, ["jobs/siconos.sh"]),
-    "siconos_counts": Entry("docs/siconos.md", siconos.counts, True, ["jobs/siconos.sh"]),
-    "siconos_above": Entry("docs/siconos.md", siconos.above, True, ["jobs/siconos.sh"]),
+    "siconos_residuals": Entry("docs/research/siconos.md", siconos.residuals, True, ["jobs/siconos.sh"]),
+    "siconos_counts": Entry("docs/research/siconos.md", siconos.counts, True, ["jobs/siconos.sh"]),
+    "siconos_above": Entry("docs/research/siconos.md", siconos.above, True, ["jobs/siconos.sh"]),
     "scaling": Entry(f"{kept.LONG}scaling.md", scaling.scaling, True, [scaling.command(scaling.USUAL)]),
     "scaling_long": Entry("docs/scaling.md", scaling.scaling_long, True, [scaling.command(scaling.LONG)]),
     "forecast_traffic": Entry(f"{kept.LONG}forecast_traffic.md", scaling.forecast_traffic, False,
@@ -75,10 +75,11 @@ ENTRIES = {
                             [f"mpirun -n 2 pbstudy calibrate --largest-ranks {scaling.LARGEST_RANKS}", "pbreport calibrate.h5"]),
     "engines_speed": Entry(f"{kept.LONG}engines_speed.md", engines_speed.speed, True, ["tests/bench/engines/engines.py --markdown"]),
     "engines_equal_gap": Entry(f"{kept.LONG}engines_equal_gap.md", engines_speed.equal_gap, True, ["tests/bench/engines/engines.py --markdown"]),
-    "spaces": Entry("docs/spaces.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
+    "spaces": Entry("docs/scaling.md", speed.spaces, True, ["tests/bench/decompose.py 3"]),
 }
 
-# draw: gives the SVG of the origin of the first table (revision, machine) and of the rows of all of them. tables: names of ENTRIES.
+# draw: gives the SVG of the origin of the first table (revision, machine) and of the rows of all of them; of nothing where it rests on no table. tables:
+# names of ENTRIES.
 Diagram = collections.namedtuple("Diagram", "draw tables")
 
 # In docs/images, as NAME.svg.
@@ -91,6 +92,9 @@ DIAGRAMS = {
     "hard-cases": Diagram(maps.settings, ["hard_map"]),
     "substeps": Diagram(bars.substeps, ["substeps"]),
     "effects": Diagram(bars.effects, ["effects"]),
+    "runs": Diagram(schemes.runs, []),
+    "frame": Diagram(schemes.frame, []),
+    "step": Diagram(schemes.substeps, []),
     "paper": Diagram(bars.paper, ["paper_counts", "paper_clock", "paper_instructions", "paper_prediction"]),
 }
 
@@ -103,4 +107,5 @@ def drawn(name):
     """The SVG of a diagram, of the tables as they are kept."""
     diagram = DIAGRAMS[name]
     places = [(ENTRIES[table].page, table) for table in diagram.tables]
-    return diagram.draw(kept.origin(*places[0]), *(kept.rows(*place) for place in places))
+    origin = [kept.origin(*places[0])] if places else []
+    return diagram.draw(*origin, *(kept.rows(*place) for place in places))

@@ -1,6 +1,6 @@
 """Recorded steps of pbmpi as problems of contacts with Coulomb's friction: one problem an island.
 
-All follows from what a run's file has (io/SCHEMA.md); docs/siconos.md has the formulas. Needs a run with --record contacts and
+All follows from what a run's file has (io/SCHEMA.md); docs/research/siconos.md has the formulas. Needs a run with --record contacts and
 --steps-per-frame 1, so that a step stands between two recorded states."""
 import dataclasses
 
@@ -86,7 +86,7 @@ class Problem:
 
 
 class Joints:
-    """Rows of joints, as docs/siconos.md has them; limits and motors are taken as impulses that are known."""
+    """Rows of joints, as docs/research/siconos.md has them; limits and motors are taken as impulses that are known."""
 
     def __init__(self, file):
         self.table = {name: column[:] for name, column in file["joints"].items()}

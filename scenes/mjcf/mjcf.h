@@ -1,4 +1,4 @@
-/// Reads MuJoCo's MJCF, as far as a Model can express it (docs/models.md).
+/// Reads MuJoCo's MJCF, as far as a Model can express it (scenes/MODELS.md).
 #pragma once
 
 #include <string>

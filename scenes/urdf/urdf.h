@@ -1,4 +1,4 @@
-/// Reads ROS's URDF, as far as a Model can express it (docs/models.md).
+/// Reads ROS's URDF, as far as a Model can express it (scenes/MODELS.md).
 #pragma once
 
 #include "scenes/links/links.h"

@@ -38,8 +38,10 @@ class Install(unittest.TestCase):
                          share / "bash-completion/completions" / program, share / "fish/vendor_completions.d" / f"{program}.fish"):
                 self.assertTrue(path.is_file(), path)
         self.assertTrue((share / "zsh/vendor-completions/_pbmpi").is_file())
-        pages = {path.name for path in (SOURCE / "docs").glob("*.md")}
-        self.assertEqual({path.name for path in (share / "doc/pbmpi/docs").iterdir()}, pages)
+        suffixes = (".md", ".svg", ".webp", ".csv")
+        pages, installed = ({path.relative_to(folder) for path in folder.rglob("*") if path.suffix in suffixes}
+                            for folder in (SOURCE / "docs", share / "doc/pbmpi/docs"))
+        self.assertEqual(installed, pages)
 
     def test_no_file_names_the_checkout_or_the_build(self):
         for path in self.files():

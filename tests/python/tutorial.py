@@ -1,4 +1,4 @@
-"""The blocks of docs/python.md, and how they are run.
+"""The blocks of docs/python.md and docs/start.md, and how they are run.
 
 Python blocks share one interpreter; one that begins with "# NAME.py" is a file instead. Blocks of commands that start programs of pbmpi
 are run by the shell, others (to install, to build) are not. A text block is what all blocks since the last one printed.
@@ -9,7 +9,7 @@ import re
 import subprocess
 
 BLOCK = re.compile(r"^```(python|sh|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-PROGRAM = re.compile(r"(mpirun|pbmpi|pbstudy|pbreport) ")
+PROGRAM = re.compile(r"(mpirun|pbmpi|pbstudy|pbreport|cat|printf|jobs/scaling\.sh) ")
 FILE = re.compile(r"# (\w+\.py)\n")
 
 

@@ -6,7 +6,7 @@ from prediction import figure_8
 from statements.statement import NOT_MEASURED, PREDICTION, Answer, Statements
 from statements.suite import COLLISION_SAYS, MIX_SAYS, judge_collision_share, judge_mix
 
-PROCESSOR = "modelled processor of Table 3 (docs/prediction.md)"
+PROCESSOR = "modelled processor of Table 3 (docs/research/prediction.md)"
 NO_CYCLES = "no cycles"
 OF_THE_STUDY = Statements()  # judged by the study alone
 

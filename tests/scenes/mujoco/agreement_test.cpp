@@ -172,7 +172,7 @@ TEST(Mujoco, is_near_on_a_cart_that_slides_both_ways) {
 TEST(Mujoco, is_another_on_a_damped_hinge) {
   const double distance = difference(hanging("<joint axis='0 1 0' damping='.2'/>"));
   EXPECT_LT(distance, 0.2) << "of a rod of 0.3 m";
-  EXPECT_GT(distance, close_m) << "should it have become exact, docs/models.md is to say so";
+  EXPECT_GT(distance, close_m) << "should it have become exact, docs/scenes.md is to say so";
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 enum { max_window = 4096, num_clusters = 4, queue_entries = 16 };
 
-/// Defaults: Table 3 of the paper, and choices where it is silent (docs/prediction.md).
+/// Defaults: Table 3 of the paper, and choices where it is silent (docs/research/prediction.md).
 typedef struct {
   Int width, window, memory_queue, clusters;  ///< clusters 0: one queue without limits
   Int int_units, memory_units, fp_units;      ///< per cluster
