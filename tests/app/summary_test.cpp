@@ -89,6 +89,28 @@ TEST(Summary, text_has_greppable_lines) {
   EXPECT_NE(text.find("\nidle_ranks: 1 "), std::string::npos);
 }
 
+TEST(Summary, the_short_text_says_in_five_lines_what_one_asks_first) {
+  RunSummary summary = computed();
+  summary.scene = "CrashSk";
+  summary.state_hash = "0123456789abcdef";
+  summary.worlds_survived = 3;
+  summary.max_joint_gap_m = 0.00753;
+  const std::string text = to_short_text(summary, false);
+  EXPECT_EQ(text.find("scene: CrashSk, 4 worlds with 40 bodies on 2 ranks; "), 0u);
+  EXPECT_NE(text.find("\nspeed: 50 % of the frames within 3 ms; half take 4 ms, the longest 6 ms\n"),
+            std::string::npos);
+  EXPECT_NE(text.find("\naccuracy: joints gape by 7.53 mm"), std::string::npos);
+  EXPECT_NE(text.find("\nfailed: 1 of 4 worlds did not survive\n"), std::string::npos);
+  EXPECT_NE(text.find("\nstate_hash: 0123456789abcdef\n"), std::string::npos);
+}
+
+TEST(Summary, colours_are_for_terminals_alone) {
+  RunSummary summary = computed();
+  summary.worlds_survived = summary.worlds;
+  EXPECT_EQ(to_short_text(summary, false).find('\033'), std::string::npos);
+  EXPECT_NE(to_short_text(summary, true).find("failed: \033[32mnothing\033[0m"), std::string::npos);
+}
+
 /// One world cut into spaces: 8 ms of work on two ranks, of which 1 ms is root's section, in 5 ms.
 RunSummary cut_into_spaces() {
   MeasuredFrames frames;

@@ -1,5 +1,7 @@
 #include "app/pbmpi/run.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -154,12 +156,19 @@ void write_sidecar(const mpi::Communicator& comm, const RunSpec& spec) {
   }
 }
 
+/// Is stdout read by somebody? Under mpirun it looks like a terminal even where it is a file, but stderr does
+/// not.
+bool is_on_terminal() {
+  return isatty(STDOUT_FILENO) != 0 && isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr;
+}
+
 void print(const mpi::Communicator& comm, const Options& options, const RunSummary& summary) {
   if (!comm.is_root()) return;
   if (options.run.report == ReportFormat::json) {
     std::cout << to_json(summary) << std::flush;
   } else if (!options.common.quiet) {
-    std::cout << to_text(summary) << std::flush;
+    const bool is_full = options.run.report == ReportFormat::full;
+    std::cout << (is_full ? to_text(summary) : to_short_text(summary, is_on_terminal())) << std::flush;
   }
 }
 

@@ -157,7 +157,11 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary);
 void compute_delivery(const std::vector<double>& delivered_s, const std::vector<double>& precise_s,
                       double budget_s, EstimateSummary& estimate);
 
-/// The summary as text, one line a number or group ("state_hash: ...").
+/// What one asks first, in lines: the work, how fast it was against the budget, how far joints and contacts
+/// are off, what failed, the hash. `in_colour`: for a terminal.
+std::string to_short_text(const RunSummary& summary, bool in_colour);
+
+/// The whole summary as text, one line a number or group ("state_hash: ...").
 std::string to_text(const RunSummary& summary);
 
 /// The JSON document of --report json, with a newline at the end.

@@ -49,6 +49,15 @@ Action action_of(const po::variables_map& values) {
   return values.count("describe") != 0 ? Action::describe : Action::run;
 }
 
+constexpr const char* which_setting =
+    "\n"
+    "Which setting? The default, unless (docs/settings.md):\n"
+    "  a frame must fit a budget   pbmpi --scene X --precision single, then --substeps 8\n"
+    "  impacts must be right       pbmpi --scene X --approach 10cm\n"
+    "  most things rest            pbmpi --scene X --tolerance 0.01mm\n"
+    "  there are many worlds       mpirun -n RANKS pbmpi --scene X --replicas 1000 --precision single\n"
+    "  one world is large          mpirun -n RANKS pbmpi --scene Battle2";
+
 }  // namespace
 
 Manual pbmpi_manual() {
@@ -96,7 +105,7 @@ Options parse_options(const std::vector<std::string>& args, const std::string& s
   if (values.count("feec") != 0) options.feec = values["feec"].as<std::string>();
   const bool needs_scene = options.action == Action::run || options.action == Action::describe;
   require_input(!needs_scene || options.run.scene || options.run.resume,
-                "no scene given; name one with --scene (see --list-scenes)");
+                std::string("no scene given; name one with --scene (see --list-scenes)\n") + which_setting);
   require_input(!(options.run.no_output && options.run.output),
                 "--output and --no-output exclude each other; drop one");
   return options;

@@ -190,8 +190,9 @@ std::vector<RunOption> output_rows() {
       {.name = "report",
        .member = &RunSpec::report,
        .group = group,
-       .placeholder = "text|json",
-       .meaning = "the summary; json: exactly one JSON document on stdout",
+       .placeholder = "text|full|json",
+       .meaning =
+           "the summary; full: with times of phases and ranks; json: exactly one JSON document on stdout",
        .shows_default = true},
       {.name = "budget",
        .member = &RunSpec::budget_s,

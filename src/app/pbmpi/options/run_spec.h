@@ -16,9 +16,9 @@
 
 namespace pbmpi::app {
 
-enum class ReportFormat { text, json };
+enum class ReportFormat { text, full, json };
 enum class Decomposition { automatic, worlds, spaces };
-inline constexpr std::array<std::string_view, 2> report_format_names = {"text", "json"};
+inline constexpr std::array<std::string_view, 3> report_format_names = {"text", "full", "json"};
 inline constexpr std::array<std::string_view, 3> decomposition_names = {"auto", "worlds", "spaces"};
 
 /// Worlds first .. end - 1 of an ensemble.
