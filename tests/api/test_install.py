@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import harness  # noqa: E402
 
 BUILD, EXAMPLE, COMPILER = sys.argv.pop(1), sys.argv.pop(1), sys.argv.pop(1)
-PAGE = os.path.join(harness.SOURCE, "docs", "cpp.md")
+PAGE = os.path.join(harness.SOURCE, "docs", "python.md")
 
 
 class InstallTest(harness.ProgramTest):

@@ -115,7 +115,7 @@ class Effects(ProgramTest):
             self.assertIn(words, text)
 
     def test_the_plans_in_the_documents_are_what_describe_says(self):
-        with open(os.path.join(SOURCE, "docs", "effects.md"), encoding="utf-8") as file:
+        with open(os.path.join(SOURCE, "docs", "tables", "pages", "plans.md"), encoding="utf-8") as file:
             rows = [[cell.strip() for cell in line.strip().strip("|").split("|")]
                     for line in file.read().split("<!-- figures: plans -->")[1].split("<!-- end figures -->")[0].splitlines()
                     if line.startswith("|") and not line.startswith("| ---")]
