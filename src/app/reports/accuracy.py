@@ -7,8 +7,8 @@ from reports.command_line import Command, add_scene_option, deliver, one_file, p
 from reports.document import PAGE, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study, require, write_file
 from reports.study import diagrams
-from reports.study.answers import LENGTHS_M, Limit, answer_json, answer_text, answers_asked, result_text
-from reports.words import number, percent, plural, stepper_in
+from reports.study.answers import LENGTHS_M, Limit, answer_command, answer_json, answer_text, answers_asked, result_text
+from reports.words import number, percent, plural
 
 
 def add_options(group):
@@ -111,11 +111,6 @@ class Case:
         step = {name.removeprefix("--"): value for name, value in zip(words[::2], words[1::2])}
         return {"scene": self.scene} | step | {"steps-per-frame": str(self.row.steps_per_frame), "replicas": str(self.row.worlds),
                                                "warmup": str(self.row.warmup), "frames": str(self.row.frames)}
-
-    def method(self):
-        """"sor single, law soft": all but the numbers of a setting."""
-        law = self.options().get("law")
-        return stepper_in(self.row.setting) + (f", law {law}" if law else "")
 
     def run_command(self):
         return " ".join(["mpirun -n 1 pbmpi", *(f"--{name} {value}" for name, value in self.options().items())])
@@ -283,7 +278,8 @@ def scene_section(scene, limit):
         text = "a frame of the setting, estimated with so many iterations a step; times are those until the estimate is there"
         tables += cases_tables("Estimates (FEEC)", text, scene.estimates, scene, limit, "setting, and what estimates its frame",
                                "until it is there ms")
-    return Section(scene.name, scene_text(scene, limit), charts, tables, last=answer_text(scene, limit.measure, MEASURES[limit.measure].words))
+    answer = answer_text(scene, limit.measure, MEASURES[limit.measure].words) + ("" if limit.is_asked() else answer_command(scene, limit.measure))
+    return Section(scene.name, scene_text(scene, limit), charts, tables, last=answer)
 
 
 def case_json(one, limit):

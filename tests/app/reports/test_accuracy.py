@@ -237,27 +237,15 @@ class Words(unittest.TestCase):
 
 
 class Diagrams(unittest.TestCase):
-    def test_shapes_tell_substeps_sizes_iterations_and_edges_shorter_steps(self):
-        cases = [case(1, 1, substeps=substeps, iterations=4 ** power) for power, substeps in enumerate((1, 2, 3, 5, 8, 13))]
-        marks = diagrams.Marks(cases)
-        self.assertEqual([marks.shape(substeps) for substeps in (1, 2, 8, 13)], ["circle", "triangle", "star", "star"])
-        self.assertEqual([marks.radius(iterations) for iterations in (1, 32, 1024)], [3, 4.75, 6.5])
-        self.assertEqual([entry["label"] for entry in marks.key()],
-                         ["1 substep", "2 substeps", "3 substeps", "5 substeps", "8 substeps or more", "1 iteration", "1024 iterations"])
-        halved = case(1, 1, dt=0.005)
-        marks = diagrams.Marks([*cases, halved])
-        self.assertEqual(marks.of([cases[1], halved], "red")["pointBorderWidth"], [1, 2.2])
-        self.assertEqual(marks.key()[-1]["label"], "dt below 0.01 s")
-
-    def test_a_diagram_has_a_line_a_method_the_other_settings_and_the_chosen(self):
+    def test_a_diagram_has_a_line_a_stepper_the_chosen_and_hides_the_other_settings(self):
         cases = scene(uncertainty_mm=4)
         cases.add(case(5, 3, setting="sor double, 2 x 3, law ode", options=STEP.replace("single", "double --law ode")))
         cases.add(case(1, 1, kind="estimate", **BLOWN_UP))
         config = diagrams.diagram(cases, Limit(tolerance_m=6e-3), "rms", "Position", "error [mm]").config
-        ode, single, others, chosen = config["data"]["datasets"]
-        self.assertEqual([(one["label"], [point["x"] for point in one["data"]], one["borderDash"]) for one in (ode, single)],
-                         [("sor double, law ode", [5], [7, 3]), ("sor single", [1, 2, 4], [])])
-        self.assertEqual((others["label"], [point["y"] for point in others["data"]]), ("other settings", [12, 5]), "none that blew up")
+        sor, others, chosen = config["data"]["datasets"]
+        self.assertEqual((sor["label"], [point["x"] for point in sor["data"]]), ("sor", [1, 2, 4]), "of both precisions and laws")
+        self.assertEqual((others["label"], others["hidden"]), ("other settings", True))
+        self.assertEqual([point["y"] for point in others["data"]], [12, 5, 3], "none that blew up")
         self.assertEqual(chosen["data"][0]["label"], "chosen: sor single, 2 x 3, dt 0.01 s (2 substeps of 3 iterations): 2.000 ms, 5 mm")
         self.assertEqual([(band["label"], band["to"]) for band in config["options"]["plugins"]["pbmpi"]["bands"]],
                          [("uncertainty of nature [mm]", 4), ("tolerance [mm]", 6)])

@@ -98,3 +98,9 @@ def answer_text(scene, measure, words):
     unknown = any(one.hard is None for one in scene.settings)
     text = "; ".join(parts) + (" (settings not held against the hard cases: --hard-cases stability.h5)." if unknown else ".")
     return text[0].upper() + text[1:]
+
+
+def answer_command(scene, measure):
+    """The line to copy for the answer to the frame's budget; nothing where there is none."""
+    best = answers_asked(measure)[0].chosen(scene)
+    return f"\n\nTo run with the first: {best.run_command()}" if best else ""

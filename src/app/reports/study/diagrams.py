@@ -3,49 +3,10 @@ import math
 
 from reports import charts
 from reports.document import Chart
-from reports.words import plural, stepper_in
+from reports.words import plural
 
-SHAPES = ("circle", "triangle", "rect", "rectRot", "star")  # of points, by the number of substeps; what is beyond shares the last
-DASHES = {"ode": [7, 3], "coulomb": [2, 3]}  # of lines, by sor's law
 ASKED = {"colour": charts.RED, "dash": [6, 4]}  # how limits are drawn
-SMALL = 1.6  # radius [pixels] of points that are on no line
-
-
-class Marks:
-    """The shape of a point shows its number of substeps, the size its number of iterations, a dark edge a step below the longest."""
-
-    def __init__(self, settings):
-        self.substeps = sorted({one.row.substeps for one in settings})
-        self.most_iterations = max((one.row.iterations for one in settings), default=1)
-        self.longest_s = max((one.row.dt for one in settings), default=0.0)
-        self.has_shorter = any(self.is_short(one) for one in settings)
-
-    def is_short(self, one):
-        return one.row.dt < 0.999 * self.longest_s
-
-    def shape(self, substeps):
-        return SHAPES[min(self.substeps.index(substeps), len(SHAPES) - 1)]
-
-    def radius(self, iterations):
-        """In pixels: 3 for one iteration, 6.5 for the most, linear in the logarithm in between."""
-        return 3 + 3.5 * math.log2(max(1, iterations)) / max(1.0, math.log2(self.most_iterations))
-
-    def of(self, settings, colour):
-        """How Chart.js draws their points."""
-        return {"pointStyle": [self.shape(one.row.substeps) for one in settings],
-                "pointRadius": [self.radius(one.row.iterations) for one in settings],
-                "pointBorderColor": [charts.INK if self.is_short(one) else colour for one in settings],
-                "pointBorderWidth": [2.2 if self.is_short(one) else 1 for one in settings]}
-
-    def key(self):
-        entries = [{"label": plural(substeps, "substep"), "shape": shape} for substeps, shape in zip(self.substeps, SHAPES)]
-        if len(self.substeps) > len(SHAPES):
-            entries[-1]["label"] += " or more"
-        for iterations in sorted({1, self.most_iterations}):
-            entries.append({"label": plural(iterations, "iteration"), "shape": "circle", "radius": self.radius(iterations)})
-        if self.has_shorter:
-            entries.append({"label": f"dt below {self.longest_s:g} s", "shape": "circle", "stroke": charts.INK, "width": 2.2})
-        return entries
+SMALL = 2  # radius [pixels] of points that are on no line
 
 
 def point(one, y_mm):
@@ -67,41 +28,36 @@ def bands(scene, limit, measure):
     return found
 
 
-def colour_of(one):
-    return charts.GREEN if stepper_in(one.row.setting).endswith("single") else charts.ENGINES[one.stepper]
-
-
-def lines(scene, measure, marks):
-    """For each method the settings that no other of it beats, joined by a line; then all other settings, small."""
-    by_method = {}
+def lines(scene, measure):
+    """For each stepper a line through the settings that no other of it beats; then all other settings, small, and hidden until they are asked for."""
+    by_stepper = {}
     for one in scene.settings:
         if not math.isnan(one.error_m(measure)):
-            by_method.setdefault(one.method(), []).append(one)
-    sets, small = [], []
-    for label, settings in sorted(by_method.items()):
-        front, colour = scene.front(measure, settings), colour_of(settings[0])
-        small += [one for one in settings if one.finite() and one not in front]
-        law = settings[0].options().get("law")
-        sets.append(charts.line(label, [point(one, 1e3 * one.error_m(measure)) for one in front], colour, showLine=True, borderWidth=1.8,
-                                borderDash=DASHES.get(law, []), **marks.of(front, colour)))
-    if small:
-        sets.append({"label": "other settings", "data": [point(one, 1e3 * one.error_m(measure)) for one in small], "keyShape": "circle",
-                     "backgroundColor": list(map(colour_of, small)), "pointRadius": SMALL, "pointBorderWidth": 0})
+            by_stepper.setdefault(one.stepper, []).append(one)
+    sets, others = [], []
+    for stepper, settings in sorted(by_stepper.items()):
+        front = scene.front(measure, settings)
+        others += [one for one in settings if one.finite() and one not in front]
+        sets.append(charts.line(stepper, [point(one, 1e3 * one.error_m(measure)) for one in front], charts.ENGINES[stepper], showLine=True, borderWidth=2,
+                                pointRadius=4))
+    if others:
+        sets.append({"label": "other settings", "data": [point(one, 1e3 * one.error_m(measure)) for one in others], "keyShape": "circle",
+                     "backgroundColor": [charts.ENGINES[one.stepper] for one in others], "pointRadius": SMALL, "pointBorderWidth": 0, "hidden": True})
     return sets
 
 
 def diagram(scene, limit, measure, title, axis):
-    """A line a method, all other settings and the estimates, a ring round the chosen setting, and how far nature may be off."""
-    marks, chosen = Marks(scene.settings), limit.chosen(scene)
-    sets = lines(scene, measure, marks)
+    """A line a stepper, a ring round the chosen setting, and how far nature may be off; other settings and estimates on request."""
+    chosen = limit.chosen(scene)
+    sets = lines(scene, measure)
     estimates = [point(one, 1e3 * one.error_m(measure)) for one in scene.estimates if one.finite()]
     if estimates:
         sets.append({"label": "estimates (FEEC)", "data": estimates, "borderColor": charts.SKY, "pointStyle": "crossRot", "pointRadius": 5,
-                     "borderWidth": 2.2})
+                     "borderWidth": 2.2, "hidden": True})
     if chosen:
         where = point(chosen, 1e3 * chosen.error_m(measure))
         sets.append({"label": "chosen", "data": [where | {"label": f"chosen: {where['label']}"}], "borderColor": charts.RED,
                      "backgroundColor": "transparent", "borderWidth": 2.5, "pointRadius": 10, "keyShape": "ring", "unread": True})
     axes = {"x": charts.axis("time of the worst frame [ms]", "logarithmic"), "y": charts.axis(axis, "logarithmic")}
-    text = "Each point is a setting, each line one way of stepping; down and left is better."
-    return Chart(title, text, charts.chart("scatter", sets, axes, bands=bands(scene, limit, measure), key=marks.key()))
+    text = "Each line joins a stepper's best settings; down and left is better. The key shows what is hidden: all other settings, and estimates."
+    return Chart(title, text, charts.chart("scatter", sets, axes, bands=bands(scene, limit, measure)))

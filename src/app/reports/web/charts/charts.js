@@ -26,11 +26,17 @@ pb.addPictures = (parent, pictures) => {
   parent.append(pb.element('div', {className: 'pictures'}, ...shown));
 };
 
+// Paragraphs; a command to copy is set as such.
+pb.addParagraphs = (parent, text) => {
+  for (const part of text.split('\n\n').filter((one) => one)) {
+    const command = part.match(/^(.*: )(mpirun .*)$/);
+    parent.append(pb.element('p', {}, ...(command ? [command[1], pb.element('code', {}, command[2])] : [part])));
+  }
+};
+
 for (const section of pb.json('sections-data')) {
   const card = pb.element('section', {className: 'card section'}, pb.element('h2', {}, section.title));
-  for (const text of section.text.split('\n\n')) {
-    if (text) card.append(pb.element('p', {}, text));
-  }
+  pb.addParagraphs(card, section.text);
   document.getElementById('sections').append(card);
   const grid = pb.element('div', {className: 'chart-grid'});
   card.append(grid);
@@ -38,7 +44,7 @@ for (const section of pb.json('sections-data')) {
   for (const draw of places) draw();  // only now are they as wide as they stay
   for (const table of section.tables) pb.addTable(card, table);
   if (section.pictures) pb.addPictures(card, section.pictures);
-  if (section.last) card.append(pb.element('p', {}, section.last));
+  pb.addParagraphs(card, section.last || '');
 }
 pb.showProvenance();
 document.body.dataset.ready = 'yes';

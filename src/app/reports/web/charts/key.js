@@ -46,7 +46,7 @@ pb.addKey = (chart, parent, withDatasets, others) => {
       button.setAttribute('aria-pressed', shown);
       chart.update();
     };
-    button.setAttribute('aria-pressed', true);
+    button.setAttribute('aria-pressed', chart.isDatasetVisible(index));
     button.addEventListener('click', () => show(!chart.isDatasetVisible(index)));
     list.append(pb.element('li', {}, button));
   });
