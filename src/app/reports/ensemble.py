@@ -7,10 +7,11 @@ import numpy as np
 from reports import runs as run_files
 from reports import page, tables
 from reports.command_line import Command, Listed, add_table_option, deliver, parse, require_table
-from reports.document import MARKDOWN, TEXT, Report, Section, Table
+from reports.document import MARKDOWN, PAGE, TEXT, Report, Section, Table
 from reports.files import require
 from reports.runs import OBSERVABLES, Run, difference_text, differences
 from reports.samples import quantile, total
+from reports.study import ensemble_charts
 from reports.tables import Values
 
 FILETYPE, VERSION = "pbmpi-ensemble", (1, 6)
@@ -38,7 +39,8 @@ def add_options(group):
 COMMAND = Command("ensemble", "Compares runs of one scene that differ in --seed or --solver-seed: mean, spread and quantiles of "
                   "observables and positions frame by frame, contacts and times of each world. Runs that differ in what decides over their "
                   "results are refused.",
-                  "RUN.h5... [options]", markdown="print the summary as a table in Markdown", csv="one table as comma-separated values",
+                  "RUN.h5... [options]", page="results of worlds over their parameters, and the spread over the frames",
+                  markdown="print the summary as a table in Markdown", csv="one table as comma-separated values",
                   add_options=add_options)
 
 
@@ -434,7 +436,20 @@ def report_of(ensemble, by_body):
                 Section(tables=[table], shown_in=(MARKDOWN,))]
     positions = positions_text(numbers["positions"])
     sections += [Section(text=positions)] if positions else []
-    return Report("An ensemble of runs", "", sections, parameters_of(ensemble) | tables.json_of(numbers), head(ensemble)), numbers
+    sections += page_sections(ensemble, quantities, numbers["worlds"])
+    line, entries = page.origin_of_runs(ensemble.runs)
+    report = Report("An ensemble of runs", f"{ensemble.first.scene}, {ensemble.num_samples} samples", sections,
+                    parameters_of(ensemble) | tables.json_of(numbers), head(ensemble), line, entries)
+    return report, numbers
+
+
+def page_sections(ensemble, quantities, worlds):
+    """What the page shows besides: diagrams over parameters, if the worlds have any, and over the frames."""
+    parameters = [column.name for column in columns_of_all(ensemble.runs, "world_parameters")]
+    by_parameter = ensemble_charts.over_parameters(worlds, parameters)
+    time_s = ensemble.first.time[:ensemble.num_frames]
+    sections = [Section("Results over parameters", "", by_parameter, shown_in=(PAGE,))] if by_parameter else []
+    return [*sections, Section("Over the frames", "", ensemble_charts.over_frames(time_s, quantities), shown_in=(PAGE,))]
 
 
 def parameters_of(ensemble):

@@ -76,6 +76,10 @@ class Files:
             self.run(shutil.which("mpirun"), "-n", ranks, PBMPI, "--scene", "Fight", "--decompose", "spaces", "--frames", 4, "--quiet",
                      "--output", f"ranks{ranks}.h5")
         self.page("scaling", "scaling", "ranks1.h5", "ranks2.h5", "--quiet")
+        with open(self.path("speeds.csv"), "w", encoding="utf-8") as file:
+            file.write("car.speed\n5\n10\n15\n")
+        self.run("pbmpi", "--scene", "CrashSk", "--parameters", "speeds.csv", "--frames", 4, "--output", "study.h5", "--quiet")
+        self.page("ensemble", "ensemble", "study.h5", "--over", "worlds", "--quiet")
         self.studies()
         self.figures()
 
@@ -226,7 +230,7 @@ class Pages(unittest.TestCase):
             whole = foot + self.js("document.querySelectorAll('details').forEach((one) => { one.open = true; });"
                                    "return document.body.innerText")
             self.assertRegex(whole, r"pbmpi \d+\.\d+", name)
-            of_several_runs = "figure" in name or name in ("difference", "scaling")
+            of_several_runs = "figure" in name or name in ("difference", "ensemble", "scaling")
             self.assertIn("pbmpi --scene " if of_several_runs else "command_line", whole, name)
 
     def test_the_chosen_setting_and_the_estimates_are_in_each_diagram(self):
@@ -235,7 +239,7 @@ class Pages(unittest.TestCase):
                              "({label: one.label, texts: one.data.map((point) => point.label)})))"):
             sets = {one["label"]: one["texts"] for one in chart}
             self.assertEqual(len(sets["chosen"]), 1)
-            self.assertTrue(any(sets["chosen"][0].removeprefix("chosen: ") == text for label in sets if label.startswith(("sor", "quick"))
+            self.assertTrue(any(sets["chosen"][0].removeprefix("chosen: ") == text for label in sets if label.startswith(("sor", "quick", "other"))
                                 for text in sets[label]), "the ring lies round one of the settings")
             self.assertEqual(len(sets["estimates (FEEC)"]), 2 * (1 + 2 * 2),
                              "two numbers of iterations, of quick and of two kinds of sor in two precisions")
@@ -243,12 +247,11 @@ class Pages(unittest.TestCase):
             said = " ".join(text for texts in sets.values() for text in texts)
             self.assertIn("(2 substeps of 20 iterations)", said)
             self.assertIn("(1 substep of 1 iteration)", said)
-        shapes = self.js("const lines = Object.values(Chart.instances)[0].data.datasets.filter((one) => one.showLine);"
-                         "return lines.flatMap((set) => set.data.map((point, i) => [point.label, set.pointStyle[i], set.pointRadius[i]]))")
-        self.assertEqual({shape for label, shape, _ in shapes if "(2 substeps" in label}, {"triangle"})
-        self.assertEqual({shape for label, shape, _ in shapes if "(1 substep " in label}, {"circle"})
-        self.assertLess(max(radius for label, _, radius in shapes if "1 iteration)" in label),
-                        min(radius for label, _, radius in shapes if "20 iterations)" in label))
+        hidden = self.js("const chart = Object.values(Chart.instances)[0];"
+                         "return chart.data.datasets.filter((one, index) => !chart.isDatasetVisible(index)).map((one) => one.label)")
+        self.assertEqual(hidden, ["other settings", "estimates (FEEC)"], "on request")
+        pressed = self.js("return [...document.querySelector('.key').querySelectorAll('button')].map((one) => one.getAttribute('aria-pressed'))")
+        self.assertEqual(pressed.count("false"), 2)
 
     def test_bars_lie_where_their_names_have_no_room_on_the_same_axis(self):
         for width in browser.WIDTHS:

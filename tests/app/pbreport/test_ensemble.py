@@ -1,6 +1,8 @@
 """pbreport ensemble against numpy's mean, spread and quantiles of what stands in the files."""
 import csv
+import json
 import os
+import re
 import sys
 import unittest
 
@@ -21,6 +23,19 @@ class Ensemble(ProgramTest):
             self.summary(ranks, "--scene", "CrashWa", "--replicas", 2, "--frames", 5, "--solver-seed", seed, "--output", names[-1],
                          *args)
         return names
+
+    def test_a_page_has_results_over_the_parameters_and_the_spread_over_the_frames(self):
+        self.write("study.csv", "car.speed\n5\n10\n15\n")
+        self.summary(1, "--scene", "CrashSk", "--parameters", "study.csv", "--frames", 3, "--output", "study.h5")
+        result = self.report("ensemble", "study.h5", "--over", "worlds", "--html", "study.html", "--quiet")
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with open(self.path("study.html"), encoding="utf-8") as file:
+            [sections] = re.findall(r'id="sections-data"[^>]*>(.*?)</script>', file.read(), re.DOTALL)
+        charts = {chart["title"]: chart["config"]["data"]["datasets"] for section in json.loads(sections) for chart in section["charts"]}
+        with h5py.File(self.path("study.h5")) as file:
+            gaps = file["world_results/joint_gap_max"][:]
+        self.assertEqual([(one["x"], one["y"]) for one in charts["joint_gap_max over car.speed"][0]["data"]], list(zip((5, 10, 15), gaps)))
+        self.assertEqual([one["label"] for one in charts["energy"]], ["mean", "q5", "q95"])
 
     def ensemble(self, *args):
         result = self.report("ensemble", *args, "--json")
