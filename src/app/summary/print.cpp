@@ -1,4 +1,7 @@
 #include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "app/common/json_text.h"
@@ -17,6 +20,11 @@ std::string join(const Items& items, ToText to_text) {
 
 /// Are many worlds cut?
 bool are_groups(const RunSummary& s) { return s.groups.num_groups() > 0 && s.worlds > 1; }
+
+/// From the sum of the measured frames [s] to the mean of one [ms].
+double ms_a_frame(const RunSummary& s, double sum_s) {
+  return 1e3 * sum_s / static_cast<double>(std::max<std::int64_t>(1, s.measured_frames));
+}
 
 std::string run_lines(const RunSummary& s) {
   std::string text;
@@ -50,8 +58,8 @@ std::string spaces_lines(const RunSummary& s) {
   for (int rank = 0; rank < s.ranks; ++rank) {
     text += fmt::format("rank: {:<3}", rank);
     for (const PhaseSummary& p : s.phases)
-      text += fmt::format(" {} {:.3f}", p.name, 1e3 * p.by_rank_s[static_cast<std::size_t>(rank)]);
-    text += " ms\n";
+      text += fmt::format(" {} {:.3f}", p.name, ms_a_frame(s, p.by_rank_s[static_cast<std::size_t>(rank)]));
+    text += " ms a frame\n";
   }
   text += fmt::format(
       "spaces: serial share {:.2f} % ({}), so at most {:.2f} times one rank (Amdahl), {:.2f} with the "
@@ -72,9 +80,10 @@ std::string speed_lines(const RunSummary& s) {
   text += fmt::format("throughput: {:.0f} world-steps/s ({:.0f} a rank), {:.0f} body-steps/s\n",
                       s.world_steps_per_s, s.world_steps_per_s / s.ranks, s.body_steps_per_s);
   for (const PhaseSummary& p : s.phases) {
-    text +=
-        fmt::format("phase: {:11} min {:>9.3f} ms (rank {})  avg {:>9.3f} ms  max {:>9.3f} ms (rank {})\n",
-                    p.name, 1e3 * p.min_s, p.min_rank, 1e3 * p.avg_s, 1e3 * p.max_s, p.max_rank);
+    text += fmt::format(
+        "phase: {:11} min {:>9.3f} ms (rank {})  avg {:>9.3f} ms  max {:>9.3f} ms (rank {}) a frame\n",
+        p.name, ms_a_frame(s, p.min_s), p.min_rank, ms_a_frame(s, p.avg_s), ms_a_frame(s, p.max_s),
+        p.max_rank);
   }
   text += fmt::format("efficiency: parallel {:.1f} % = load balance {:.1f} % x communication {:.1f} %\n",
                       100 * s.parallel_efficiency, 100 * s.load_balance, 100 * s.communication_efficiency);
