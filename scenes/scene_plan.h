@@ -8,10 +8,14 @@
 #include <toml++/toml.h>
 
 #include "scenes/actors/actor.h"
+#include "scenes/actors/copies.h"
 #include "scenes/actors/variation.h"
 #include "scenes/format/case_reader.h"
+#include "scenes/format/event_reader.h"
+#include "scenes/format/interest.h"
 #include "scenes/format/joint_reader.h"
-#include "scenes/format/plans.h"
+#include "scenes/format/pair_reader.h"
+#include "scenes/format/part_velocities.h"
 #include "scenes/scene.h"
 
 namespace pbmpi::scenes {

@@ -4,46 +4,13 @@
 #include <deque>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "scenes/mjcf/compiler.h"
+#include "scenes/mjcf/defaults.h"
 #include "scenes/xml/attributes.h"
-#include "scenes/xml/element.h"
 #include "scenes/xml/include.h"
-#include "scenes/xml/notes.h"
 
 namespace pbmpi::scenes::mjcf {
-
-/// Does MJCF have an actuator of that name?
-bool is_actuator(std::string_view element);
-
-/// MJCF's default classes: attributes that elements have unless they override them.
-class Defaults {
- public:
-  /// Reads a top-level `<default>` with the classes in it; later ones complete earlier ones.
-  void read(const xml::Element& element);
-
-  /// The defaults that `element` takes from its own class, or else from `childclass` of the bodies around it
-  /// ("": the topmost class). The first attribute of a name counts. `kind`: the element of `<default>` that
-  /// has them, if that is not called as this one. Throws core::InputError for an unknown class.
-  std::vector<xml::Attribute> of(const xml::Element& element, const std::string& childclass,
-                                 std::string_view kind = {}) const;
-
- private:
-  using ByElement = std::map<std::string, std::vector<xml::Attribute>, std::less<>>;
-  void read_class(const xml::Element& element, const std::string& name);
-
-  std::map<std::string, ByElement> classes_{{"main", {}}};
-};
-
-/// What the rest of the file specifies about its bodies and servos.
-struct Context {
-  Compiler compiler;
-  Option option;
-  Defaults defaults;
-  const xml::LeaveOut& leave_out;
-};
 
 /// One use of a model: the main one, or one that an `<attach>` makes. What `<compiler>` and `<default>` of
 /// its file say counts in it alone, and a name in it means what it has itself.

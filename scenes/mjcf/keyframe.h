@@ -7,7 +7,7 @@
 
 #include "scenes/mjcf/places.h"
 #include "scenes/xml/attributes.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::mjcf {
 

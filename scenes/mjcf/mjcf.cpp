@@ -6,7 +6,8 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scenes/mjcf/body_reader.h"
-#include "scenes/mjcf/connections.h"
+#include "scenes/mjcf/contact_reader.h"
+#include "scenes/mjcf/equality_reader.h"
 #include "scenes/mjcf/keyframe.h"
 #include "scenes/mjcf/servo_reader.h"
 

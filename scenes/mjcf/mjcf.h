@@ -5,7 +5,7 @@
 
 #include "scenes/links/links.h"
 #include "scenes/xml/include.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::mjcf {
 

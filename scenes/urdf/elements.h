@@ -5,15 +5,11 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/links/links.h"
 #include "scenes/parts/parts.h"
 #include "scenes/xml/element.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::urdf {
-
-/// Reads URDF's `<link>`: mass and geoms; the caller adds the joints to other links.
-links::Link read_link(const xml::Element& element, const xml::LeaveOut& leave_out);
 
 /// The child of that name, of which there is at most one; null without one.
 const xml::Element* child_of(const xml::Element& element, std::string_view name);

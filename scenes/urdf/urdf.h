@@ -3,7 +3,7 @@
 
 #include "scenes/links/links.h"
 #include "scenes/xml/element.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::urdf {
 

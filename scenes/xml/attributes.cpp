@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "core/error.h"
+#include "core/number_text.h"
 #include "core/quantity.h"
 #include "core/text.h"
 

@@ -10,7 +10,7 @@
 
 #include "core/vector.h"
 #include "scenes/xml/element.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::xml {
 

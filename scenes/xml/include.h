@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "scenes/xml/element.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::xml {
 

@@ -1,18 +1,6 @@
 #include "scenes/xml/notes.h"
 
-#include "core/text.h"
-
 namespace pbmpi::scenes::xml {
-
-bool LeaveOut::drops(std::string_view name, const std::string& where) const {
-  if (!names(name)) return false;
-  notes_.add(where, core::in_quotes(name) + " is left out");
-  return true;
-}
-
-std::string LeaveOut::advice(std::string_view name) {
-  return "leave it out (leave_out = [\"" + std::string(name) + "\"] in a TOML scene)";
-}
 
 void Notes::add(const std::string& where, const std::string& text) {
   const auto [at, is_new] = index_.emplace(text, notes_.size());

@@ -1,4 +1,4 @@
-#include "scenes/actors/variation.h"
+#include "scenes/actors/copies.h"
 
 #include <gtest/gtest.h>
 

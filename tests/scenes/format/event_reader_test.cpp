@@ -1,4 +1,4 @@
-#include "scenes/format/plans.h"
+#include "scenes/format/event_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/format/plans.h"
+#include "scenes/format/pair_reader.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "scenes/format/plans.h"
+#include "scenes/format/part_velocities.h"
 
 #include <gtest/gtest.h>
 
