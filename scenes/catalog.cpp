@@ -1,18 +1,58 @@
 // The scenes by name, and scene files by path.
 #include <toml++/toml.h>
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
+#include <sstream>
 
 #include "core/error.h"
 #include "core/system/input_file.h"
 #include "core/text.h"
 #include "scenes/actors/model_file.h"
 #include "scenes/embedded.h"
+#include "scenes/meshes/model_meshes.h"
 #include "scenes/scene.h"
 #include "scenes/scene_toml.h"
 
 namespace pbmpi::scenes {
 namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a mesh `package://name/path` of a model in this folder lies: in a folder of the package's name
+/// around or in that of the model, or in one of those that ROS_PACKAGE_PATH lists. Empty without one.
+fs::path in_package(const std::string& name, const fs::path& folder) {
+  constexpr std::string_view scheme = "package://";
+  const fs::path inside = fs::path(name.substr(scheme.size())).lexically_normal();
+  if (inside.empty() || inside.is_absolute() || *inside.begin() == "..") return {};
+  std::vector<fs::path> roots;
+  for (fs::path up = fs::absolute(folder); up != up.root_path(); up = up.parent_path()) roots.push_back(up);
+  if (const char* listed = std::getenv("ROS_PACKAGE_PATH")) {
+    std::istringstream paths(listed);
+    for (std::string one; std::getline(paths, one, ':');) roots.emplace_back(one);
+  }
+  for (const fs::path& root : roots) {
+    if (fs::is_regular_file(root / inside)) return root / inside;
+  }
+  return {};
+}
+
+/// The text of the mesh at `path` that `model` calls `name`. What is wrong with it matters only if it is
+/// used: a model may have meshes that are only drawn.
+std::string read_mesh_of(const std::string& path, const std::string& model, const std::string& name) {
+  try {
+    const auto package = name.find("package://");
+    const fs::path inside = package == std::string::npos
+                                ? fs::path(path)
+                                : in_package(name.substr(package), fs::path(model).parent_path());
+    core::require_input(!inside.empty(), core::in_quotes(name) + " is in no folder around " + model +
+                                             "; give that of its package in ROS_PACKAGE_PATH");
+    const std::string bytes = core::read_input_file(inside.string(), model + " names it: give an STL or OBJ");
+    return mesh_text(read_mesh(bytes, inside.string()), inside.string());
+  } catch (const core::InputError& error) {
+    return text_of_unreadable(error.what());
+  }
+}
 
 /// The model's own text, or a scene of it and of what it includes. Included files are named from the model's
 /// folder, which `source.file` begins with.
@@ -21,7 +61,9 @@ SceneSource read_model_scene(SceneSource source) {
   for (auto missing = missing_files(texts, source.file); !missing.empty();
        missing = missing_files(texts, source.file)) {
     for (const std::string& file : missing)
-      texts[file] = core::read_input_file(file, source.file + " includes it: give the path of an MJCF");
+      texts[file] = is_mesh_file(file)
+                        ? read_mesh_of(file, source.file, file)
+                        : core::read_input_file(file, source.file + " includes it: give the path of an MJCF");
   }
   if (texts.size() > 1) source.text = scene_with_includes(source, texts);
   return source;
@@ -37,7 +79,9 @@ SceneSource read_file(const std::string& path) {
       const std::string found = (at.parent_path() / file).string();
       source.text = with_file(
           source.text, file,
-          core::read_input_file(found, path + " names it: give the path of a model file (MJCF or URDF)"));
+          is_mesh_file(file) ? read_mesh_of(found, path, file)
+                             : core::read_input_file(
+                                   found, path + " names it: give the path of a model file (MJCF or URDF)"));
     }
   }
   return source;

@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "scenes/actors/model_file.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/meshes/mesh_file.h"
 #include "scenes/xml/element.h"
 
 namespace pbmpi::scenes {
@@ -143,6 +144,21 @@ xml::Texts texts_of(const toml::table& scene) {
   return texts;
 }
 
+/// The files of meshes that a hull, or the geoms of a compound, name.
+std::vector<std::string> meshes_of(const toml::table& actor) {
+  std::vector<std::string> meshes;
+  if (const auto file = actor["file"].value<std::string>()) meshes.push_back(*file);
+  if (const toml::array* geoms = actor["geoms"].as_array()) {
+    for (const toml::node& geom : *geoms) {
+      if (const toml::table* one = geom.as_table(); one != nullptr) {
+        if (const auto file = (*one)["file"].value<std::string>()) meshes.push_back(*file);
+      }
+    }
+  }
+  std::erase_if(meshes, [](const std::string& file) { return !is_mesh_file(file); });
+  return meshes;
+}
+
 }  // namespace
 
 toml::table parse_text(const SceneSource& source) {
@@ -198,11 +214,17 @@ std::vector<std::string> missing_files(const SceneSource& source) {
   if (actors == nullptr) return missing;
   for (const toml::node& node : *actors) {
     const toml::table* actor = node.as_table();
-    if (actor == nullptr || (*actor)["type"].value<std::string>() != "model") continue;
+    if (actor == nullptr) continue;
+    const auto add = [&](const std::string& file) {
+      if (std::ranges::find(missing, file) == missing.end()) missing.push_back(file);
+    };
     const auto file = (*actor)["file"].value<std::string>();
-    if (!file) continue;
-    for (const std::string& one : missing_files(texts, *file)) {
-      if (std::ranges::find(missing, one) == missing.end()) missing.push_back(one);
+    if (file && (*actor)["type"].value<std::string>() == "model") {
+      for (const std::string& one : missing_files(texts, *file)) add(one);
+      continue;
+    }
+    for (const std::string& mesh : meshes_of(*actor)) {
+      if (!texts.contains(mesh)) add(mesh);
     }
   }
   return missing;

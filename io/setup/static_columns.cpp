@@ -48,6 +48,7 @@ std::int64_t estimate_static_bytes(const RunShape& shape) {
 void write_static_columns(const FileRanks& ranks, ColumnFile file, const RunSetup& setup) {
   write_bodies(ranks, file, setup);
   write_geoms(ranks, file, setup);
+  write_hulls(ranks, file, setup);
   write_pair_materials(ranks, file, setup);
   write_joints(ranks, file, setup);
   write_connectivity(ranks, file, setup);

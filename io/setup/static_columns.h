@@ -11,7 +11,7 @@
 
 namespace pbmpi::io {
 
-/// Makes, or fills, /particles/bodies (without the moving part), /geoms, /pair_materials, /joints,
+/// Makes, or fills, /particles/bodies (without the moving part), /geoms, /hulls, /pair_materials, /joints,
 /// /connectivity, /worlds, /world_parameters and /ranks. Collective; throws the same core::RunError on every
 /// rank.
 void write_static_columns(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
@@ -22,6 +22,8 @@ std::int64_t estimate_static_bytes(const RunShape& shape);
 /// Parts of write_static_columns(), in its order.
 void write_bodies(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 void write_geoms(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
+/// Writes /hulls and /geoms/hull, if any world has a hull.
+void write_hulls(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 void write_pair_materials(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 void write_joints(const FileRanks& ranks, ColumnFile file, const RunSetup& setup);
 /// Writes /connectivity/joints in the form of H5MD: the joints between two bodies.

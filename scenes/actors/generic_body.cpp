@@ -67,6 +67,7 @@ void build(const GenericBody& generic, const Placement& place, model::Model& mod
     geom.local = generic.is_static ? pose_of(solid, frame)
                                    : Pose{solid.pose.position - generic.mass.centre, solid.pose.orientation};
     geom.material = generic.material;
+    geom.hull = solid.hull;
     model.geoms.push_back(geom);
   }
 }
@@ -96,26 +97,26 @@ ActorPlan read_generic(TableReader& actor, std::vector<Solid> solids) {
   return [body](const Placement& place, model::Model& model) { build(body, place, model); };
 }
 
-Solid read_part(TableReader& geom) {
+Solid read_part(TableReader& geom, const SceneContext& context) {
   geom.set_what("geom of a compound");
-  Solid solid;
-  solid.shape = read_shape(geom, solid_shapes());
-  solid.size = read_size(geom, solid.shape);
-  solid.pose = {geom.vector("position", Sign::any, Vec3(Vec3::Zero())), geom.rotation()};
+  Solid solid = read_solid_shape(geom, read_shape(geom, solid_shapes()), {context.files, context.notes});
+  const Pose frame{geom.vector("position", Sign::any, Vec3(Vec3::Zero())), geom.rotation()};
+  solid.pose =
+      solid.hull == nullptr ? frame : Pose{frame.point_to_outer(solid.pose.position), frame.orientation};
   geom.finish();
   return solid;
 }
 
 }  // namespace
 
-ActorPlan read_solid(TableReader& actor, const SceneContext&) {
+ActorPlan read_solid(TableReader& actor, const SceneContext& context) {
   const model::Shape shape = *model::enum_from_name<model::Shape>(actor.text("type"), model::shape_names);
-  return read_generic(actor, {{shape, read_size(actor, shape), {}}});
+  return read_generic(actor, {read_solid_shape(actor, shape, {context.files, context.notes})});
 }
 
-ActorPlan read_compound(TableReader& actor, const SceneContext&) {
+ActorPlan read_compound(TableReader& actor, const SceneContext& context) {
   std::vector<Solid> solids;
-  for (TableReader& geom : actor.tables("geoms")) solids.push_back(read_part(geom));
+  for (TableReader& geom : actor.tables("geoms")) solids.push_back(read_part(geom, context));
   if (solids.empty()) actor.fail("geoms", "'geoms' is missing or empty; give at least one { shape = ... }");
   return read_generic(actor, std::move(solids));
 }

@@ -7,9 +7,26 @@
 #include "core/error.h"
 #include "core/text.h"
 #include "scenes/mjcf/mjcf.h"
+#include "scenes/mjcf/settings/mesh_reader.h"
 #include "scenes/urdf/urdf.h"
 
 namespace pbmpi::scenes {
+namespace {
+
+/// The meshes of the models among these files, once all files with XML are there.
+void add_missing_meshes(const xml::Texts& texts, const std::vector<xml::ModelPart>& parts,
+                        std::vector<std::string>& missing) {
+  for (const xml::ModelPart& part : parts) {
+    if (part.file != part.main) continue;
+    const bool is_urdf = xml::parse(texts.at(part.file), part.file).name == "robot";
+    for (std::string& mesh :
+         is_urdf ? urdf::mesh_files(part.file, texts) : mjcf::mesh_files(part.file, texts)) {
+      if (!texts.contains(mesh)) missing.push_back(std::move(mesh));
+    }
+  }
+}
+
+}  // namespace
 
 bool is_model_file(const std::string& path) {
   constexpr std::array<std::string_view, 3> ends = {".xml", ".mjcf", ".urdf"};
@@ -28,7 +45,7 @@ links::ModelFile read_model_file(const xml::Texts& texts, const std::string& fil
                                                 core::in_quotes(root.name) + "; give one of the two");
   core::require_input(choices.keyframe.empty(),
                       root.where + ": a URDF has no keyframes; give 'joints' their starts");
-  return urdf::read(root, leave_out);
+  return urdf::read(root, file, texts, leave_out);
 }
 
 std::vector<std::string> missing_files(const xml::Texts& texts, const std::string& file) {
@@ -45,6 +62,7 @@ std::vector<std::string> missing_files(const xml::Texts& texts, const std::strin
         found.push_back(std::move(part));
     }
   }
+  if (missing.empty()) add_missing_meshes(texts, found, missing);
   return missing;
 }
 

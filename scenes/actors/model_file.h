@@ -25,7 +25,7 @@ struct ModelChoices {
 links::ModelFile read_model_file(const xml::Texts& texts, const std::string& file,
                                  const ModelChoices& choices, xml::Notes& notes);
 
-/// The files that a model includes or attaches, directly or not, and that `texts` lack.
+/// The files that a model includes or attaches, directly or not, and those of its meshes, that `texts` lack.
 std::vector<std::string> missing_files(const xml::Texts& texts, const std::string& file);
 
 }  // namespace pbmpi::scenes

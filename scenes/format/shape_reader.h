@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "model/model.h"
 #include "scenes/format/table_reader.h"
+#include "scenes/parts/mass_properties.h"
 
 namespace pbmpi::scenes {
 
@@ -18,5 +21,14 @@ model::Shape read_shape(TableReader& table, std::span<const model::Shape> allowe
 
 /// Reads the keys `size`, `radius` and `length` that a solid shape has, all above 0, as Geom::size [m].
 std::array<double, 3> read_size(TableReader& table, model::Shape shape);
+
+/// The texts of meshes that a scene names, and what is to be said of them.
+struct MeshSource {
+  const std::map<std::string, std::string>* files = nullptr;
+  std::vector<std::string>* notes = nullptr;
+};
+
+/// Reads the keys of a solid shape: for a hull `points` or `file`, `scale` and `vertices`, else its sizes.
+Solid read_solid_shape(TableReader& table, model::Shape shape, const MeshSource& meshes);
 
 }  // namespace pbmpi::scenes

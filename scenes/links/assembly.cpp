@@ -229,7 +229,8 @@ class Assembly::Builder {
                               geoms[i].shape,
                               geoms[i].size,
                               compose(frame, geoms[i].pose),
-                              {geoms[i].mu, 0}});
+                              {geoms[i].mu, 0},
+                              geoms[i].hull});
     }
   }
 

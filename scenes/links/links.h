@@ -53,6 +53,7 @@ struct LinkGeom {
   double mu = 1;
   unsigned contype = 1, conaffinity = 1;  ///< two geoms may touch if one's type meets the other's affinity
   std::string where;
+  std::shared_ptr<const model::Hull> hull = nullptr;  ///< with Shape::hull
 };
 
 struct Link {

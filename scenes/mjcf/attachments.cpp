@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scenes/mjcf/settings/mesh_reader.h"
 
 namespace pbmpi::scenes::mjcf {
 namespace {
@@ -87,7 +88,10 @@ Attachments::Source& Attachments::source_of(const std::string& file) {
     if (one.name == "compiler") read_compiler(one, leave_out_, context.compiler);
     if (one.name == "default") context.defaults.read(one);
   }
-  return sources_.emplace(file, Source{std::move(root), std::move(context)}).first->second;
+  Source& source = sources_.emplace(file, Source{std::move(root), std::move(context)}).first->second;
+  source.context.meshes =
+      std::make_shared<Meshes>(source.root, file, texts_, source.context.defaults, leave_out_.notes());
+  return source;
 }
 
 std::string Attachments::file_of(Attributes& attach, const Part& into) {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/mjcf/defaults.h"
+#include "scenes/mjcf/settings/defaults.h"
 #include "scenes/xml/attributes.h"
 #include "scenes/xml/include.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/links/links.h"
-#include "scenes/mjcf/compiler.h"
+#include "scenes/mjcf/settings/compiler.h"
 #include "scenes/xml/notes.h"
 
 namespace pbmpi::scenes::mjcf {

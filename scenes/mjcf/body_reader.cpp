@@ -220,8 +220,7 @@ class BodyReader {
 
   void add_geom(const xml::Element& element, int index, const Scope& scope, MassOfGeoms& sum) {
     const Context& context = scope.context();
-    ReadGeom read = read_geom(Attributes(element, context.defaults.of(element, scope.childclass)),
-                              context.compiler, context.option, leave_out_);
+    ReadGeom read = read_geom(Attributes(element, context.defaults.of(element, scope.childclass)), context);
     if (read.mass) {
       const MassProperties mass = links::moved(*read.mass, scope.frame);
       sum.known = sum.known ? links::together(*sum.known, mass) : mass;

@@ -9,6 +9,7 @@
 #include "core/text.h"
 #include "model/names.h"
 #include "scenes/links/rigid.h"
+#include "scenes/mjcf/settings/mesh_reader.h"
 
 namespace pbmpi::scenes::mjcf {
 namespace {
@@ -101,9 +102,27 @@ MassProperties mass_of_ellipsoid(Attributes& geom, const Compiler& compiler) {
   return links::moved({mass, Vec3::Zero(), inertia}, read_pose(geom, compiler));
 }
 
+/// In the body's frame. A geom has the place of its mesh's frame.
+MassProperties mass_of_mesh(Attributes& geom, const ModelMesh& mesh, const Pose& pose) {
+  const double density = geom.number("density", Range::non_negative, water);
+  std::optional<double> mass;
+  if (geom.has("mass")) mass = geom.number("mass", Range::non_negative);
+  return links::moved(scenes::mass_of(mesh, mass, density), pose);
+}
+
+/// Null if it cannot be read: its mass may not be needed.
+const ModelMesh* readable_mesh(Attributes& geom, Meshes& meshes) {
+  try {
+    return &meshes.of(geom);
+  } catch (const core::InputError&) {
+    return nullptr;
+  }
+}
+
 /// A geom of a shape that cannot be collided, and that touches nothing, or that the scene leaves out.
-ReadGeom read_drawing(Attributes& geom, const std::string& type, const Compiler& compiler,
-                      const xml::LeaveOut& leave_out) {
+ReadGeom read_drawing(Attributes& geom, const std::string& type, const Context& context) {
+  const Compiler& compiler = context.compiler;
+  const xml::LeaveOut& leave_out = context.leave_out;
   ReadGeom read;
   const bool has_mass = geom.number("mass", Range::non_negative, 1.0) > 0 &&
                         (geom.has("mass") || geom.number("density", Range::non_negative, water) > 0);
@@ -114,6 +133,8 @@ ReadGeom read_drawing(Attributes& geom, const std::string& type, const Compiler&
   }
   if (type == "ellipsoid" && !geom.has("fromto") && !geom.has("mesh"))
     read.mass = mass_of_ellipsoid(geom, compiler);
+  else if (const ModelMesh* mesh = type == "mesh" ? readable_mesh(geom, *context.meshes) : nullptr)
+    read.mass = mass_of_mesh(geom, *mesh, read_pose(geom, compiler));
   else
     read.unknown_mass = geom.where() + ": the mass of a geom of type " + core::in_quotes(type) +
                         " is not known; give its body an <inertial>, or " + xml::LeaveOut::advice(type);
@@ -121,26 +142,50 @@ ReadGeom read_drawing(Attributes& geom, const std::string& type, const Compiler&
   return read;
 }
 
+/// A mesh that touches something does so as its hull.
+std::optional<Shape> shape_of(const std::string& type, bool touches) {
+  if (type == "mesh") return touches ? std::optional(Shape::hull) : std::nullopt;
+  if (type == model::name_of(Shape::hull)) return std::nullopt;
+  return model::enum_from_name<Shape>(type, model::shape_names);
+}
+
+ReadGeom read_mesh_geom(Attributes& attributes, links::LinkGeom geom, const Context& context) {
+  const ModelMesh& mesh = context.meshes->of(attributes);
+  ReadGeom read;
+  const MassProperties mass = mass_of_mesh(attributes, mesh, geom.pose);
+  if (counts(attributes, context.compiler) && mass.mass_kg > 0) read.mass = mass;
+  const Solid solid = solid_of(mesh.found, geom.pose);
+  geom.size = solid.size;
+  geom.pose = solid.pose;
+  geom.hull = solid.hull;
+  read.geom = std::move(geom);
+  attributes.allow({"size", "fromto"});
+  attributes.finish();
+  return read;
+}
+
 }  // namespace
 
-ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const Option& option,
-                   const xml::LeaveOut& leave_out) {
+ReadGeom read_geom(Attributes attributes, const Context& context) {
+  const Compiler& compiler = context.compiler;
+  const xml::LeaveOut& leave_out = context.leave_out;
   attributes.allow({"name", "class", "rgba", "material", "user", "hfield", "mesh", "fitscale", "fluidcoef"});
   const std::string type = attributes.text("type", attributes.has("mesh") ? "mesh" : "sphere");
-  const int contype = option.collides ? attributes.integer("contype", 0, 1) : 0;
-  const int conaffinity = option.collides ? attributes.integer("conaffinity", 0, 1) : 0;
+  const int contype = context.option.collides ? attributes.integer("contype", 0, 1) : 0;
+  const int conaffinity = context.option.collides ? attributes.integer("conaffinity", 0, 1) : 0;
   attributes.allow({"contype", "conaffinity"});
-  const auto shape = model::enum_from_name<Shape>(type, model::shape_names);
+  const bool touches = contype != 0 || conaffinity != 0;
+  const auto shape = shape_of(type, touches && !leave_out.names(type));
   if (!shape) {
     const bool is_known = type == "mesh" || type == "ellipsoid" || type == "hfield" || type == "sdf";
-    const bool is_drawing = is_known && contype == 0 && conaffinity == 0;
+    const bool is_drawing = is_known && !touches;
     if (!is_drawing && !leave_out.names(type))
       attributes.fail_unless_left_out(
           "type",
           "geoms of type " + core::in_quotes(type) +
-              " cannot be collided here; take spheres, capsules, cylinders, boxes or planes",
+              " cannot be collided here; take spheres, capsules, cylinders, boxes, planes or meshes",
           type);
-    return read_drawing(attributes, type, compiler, leave_out);
+    return read_drawing(attributes, type, context);
   }
   attributes.drop(leave_out);  // now that 'mesh' can only mean the type
   attributes.refuse({"shellinertia"}, "hollow geoms are not read; give the body an <inertial>");
@@ -152,6 +197,7 @@ ReadGeom read_geom(Attributes attributes, const Compiler& compiler, const Option
   geom.mu = read_friction(attributes, leave_out.notes());
   note_contact_numbers(attributes, leave_out.notes());
   geom.pose = read_pose(attributes, compiler);
+  if (*shape == Shape::hull) return read_mesh_geom(attributes, std::move(geom), context);
   const auto segment =
       *shape == Shape::sphere || *shape == Shape::plane ? std::nullopt : read_segment(attributes);
   if (segment) geom.pose = segment->pose;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scenes/links/links.h"
-#include "scenes/mjcf/compiler.h"
+#include "scenes/mjcf/settings/defaults.h"
 #include "scenes/xml/notes.h"
 
 namespace pbmpi::scenes::mjcf {
@@ -15,9 +15,8 @@ struct ReadGeom {
 };
 
 /// `attributes` include the defaults of the geom's class. A geom whose contype and conaffinity are both 0
-/// touches nothing, but has mass.
-ReadGeom read_geom(xml::Attributes attributes, const Compiler& compiler, const Option& option,
-                   const xml::LeaveOut& leave_out);
+/// touches nothing, but has mass. A mesh touches others with its convex hull.
+ReadGeom read_geom(xml::Attributes attributes, const Context& context);
 
 MassProperties read_inertial(const xml::Element& element, const Compiler& compiler,
                              const xml::LeaveOut& leave_out);

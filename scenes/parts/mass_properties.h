@@ -21,7 +21,10 @@ struct Solid {
   model::Shape shape = model::Shape::box;
   std::array<double, 3> size{};
   core::Pose pose;
+  std::shared_ptr<const model::Hull> hull = nullptr;  ///< with Shape::hull
 };
+
+double volume(const Solid& solid);  ///< [m^3]
 
 /// The sum of the parts' volumes [m^3]: where two parts overlap, the overlap counts twice.
 double volume(const std::vector<Solid>& solids);

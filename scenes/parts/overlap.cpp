@@ -25,10 +25,19 @@ struct InnerBox {
   geometry::Box hull;  ///< aligned with the world's axes
 };
 
+/// The share to which the box about a hull shrinks so as to lie inside of it.
+double share_inside(const model::Hull& hull, const geometry::Extent& box) {
+  double share = 1;
+  for (const model::Hull::Face& face : hull.faces)
+    share = std::min(share, face.height / face.normal.cwiseAbs().dot(Vec3(box.half.data())));
+  return share;
+}
+
 /// Half sides of a box inside the geom, in the geom's own frame: a radius reaches equally far along the axes
 /// on which the shape has no length.
 Vec3 inner_half_sides(const model::Geom& geom) {
   const geometry::Extent extent = geometry::extent_of(geom);
+  if (geom.shape == Shape::hull) return share_inside(*geom.hull, extent) * Vec3(extent.half.data());
   const auto round = std::ranges::count(extent.half, 0.0);
   const double reach = round == 0 ? 0 : (extent.ball + extent.disc) / std::sqrt(static_cast<double>(round));
   const auto half = [&](std::size_t k) { return extent.half[k] > 0 ? extent.half[k] : reach; };

@@ -1,9 +1,12 @@
 #include "scenes/urdf/link_reader.h"
 
 #include <algorithm>
+#include <filesystem>
 
+#include "core/text.h"
 #include "model/names.h"
 #include "scenes/links/rigid.h"
+#include "scenes/meshes/model_meshes.h"
 #include "scenes/urdf/elements.h"
 #include "scenes/xml/attributes.h"
 
@@ -47,13 +50,44 @@ MassProperties read_inertial(const Element& element, const LeaveOut& leave_out) 
   return links::moved(read, pose);
 }
 
-std::optional<links::LinkGeom> read_collision(const Element& element, const LeaveOut& leave_out) {
+/// The convex hull of `<mesh filename scale>`.
+links::LinkGeom read_mesh(const Element& element, const Pose& origin, const MeshTexts& meshes,
+                          const LeaveOut& leave_out) {
+  Attributes mesh(element, leave_out);
+  const std::string given = mesh.text("filename");
+  const std::string what = "mesh " + core::in_quotes(given);
+  if (!is_mesh_file(given))
+    xml::refuse_element(element, what + " is no STL or OBJ; convert it to one of them");
+  const std::string file = mesh_name(given, meshes.model);
+  if (file.empty())
+    mesh.fail("filename", what + " is not in the folder of " + core::in_quotes(meshes.model) +
+                              " or below it; move it there, or name it as package://");
+  if (!meshes.texts.contains(file)) xml::refuse_element(element, what + " was not found; give its path");
+  MeshPlacing placing;
+  placing.scale = mesh.vector("scale", core::Vec3(core::Vec3::Ones()));
+  if (!(placing.scale.cwiseAbs().minCoeff() > 0)) mesh.fail("scale", "'scale' must not be 0");
+  mesh.finish(leave_out.notes());
+  const std::string& text = text_of_mesh(meshes.texts, file, mesh.where("filename"));
+  const ModelMesh placed = place_mesh(read_mesh_text(text, file), placing, element.where + ": " + what);
+  if (!placed.note.empty()) leave_out.notes().add(element.where, what + ": " + placed.note);
+  const Solid solid = solid_of(placed.found, origin);
+  links::LinkGeom geom;
+  geom.where = element.where;
+  geom.shape = solid.shape;
+  geom.size = solid.size;
+  geom.pose = solid.pose;
+  geom.hull = solid.hull;
+  return geom;
+}
+
+std::optional<links::LinkGeom> read_collision(const Element& element, const MeshTexts& meshes,
+                                              const LeaveOut& leave_out) {
   pass_over_unknown(element, {"origin", "geometry", "material", "verbose", "contact_coefficients", "surface"},
                     leave_out);
   const Element& geometry = need_child(element, "geometry");
   std::vector<std::string> shapes{"mesh"};
   for (const model::ShapeTraits& traits : model::shape_traits) {
-    if (traits.num_sizes > 0) shapes.emplace_back(traits.name);
+    if (traits.num_sizes > 0 && !traits.has_points) shapes.emplace_back(traits.name);
   }
   pass_over_unknown(geometry, shapes, leave_out);
   const auto is_shape = [&](const Element& child) {
@@ -64,9 +98,7 @@ std::optional<links::LinkGeom> read_collision(const Element& element, const Leav
   const Element& shape = *std::ranges::find_if(geometry.children, is_shape);
   if (shape.name == "mesh") {
     if (leave_out.drops(shape.name, shape.where)) return std::nullopt;
-    const xml::Attribute* file = shape.find("filename");
-    xml::refuse_element(shape, "this shape" + (file == nullptr ? "" : " (" + file->value + ")") +
-                                   " cannot be collided here; take boxes, spheres and cylinders");
+    return read_mesh(shape, read_origin(element, leave_out), meshes, leave_out);
   }
   links::LinkGeom geom;
   geom.where = shape.where;
@@ -89,7 +121,16 @@ std::optional<links::LinkGeom> read_collision(const Element& element, const Leav
 
 }  // namespace
 
-links::Link read_link(const Element& element, const LeaveOut& leave_out) {
+std::string mesh_name(const std::string& filename, const std::string& model) {
+  namespace fs = std::filesystem;
+  if (filename.starts_with("package://")) return filename;
+  const fs::path name = fs::path(filename).lexically_normal();
+  const bool leaves = name.empty() || name.is_absolute() || *name.begin() == ".." ||
+                      filename.find("://") != std::string::npos;
+  return leaves ? "" : (fs::path(model).parent_path() / name).string();
+}
+
+links::Link read_link(const Element& element, const MeshTexts& meshes, const LeaveOut& leave_out) {
   Attributes attributes(element, leave_out);
   links::Link link;
   link.name = attributes.text("name");
@@ -105,7 +146,7 @@ links::Link read_link(const Element& element, const LeaveOut& leave_out) {
   }
   for (const Element& child : element.children) {
     if (child.name != "collision") continue;
-    if (auto geom = read_collision(child, leave_out)) link.geoms.push_back(std::move(*geom));
+    if (auto geom = read_collision(child, meshes, leave_out)) link.geoms.push_back(std::move(*geom));
   }
   return link;
 }

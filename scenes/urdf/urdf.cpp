@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scenes/meshes/mesh_file.h"
 #include "scenes/urdf/elements.h"
 #include "scenes/urdf/joint_reader.h"
 #include "scenes/urdf/link_reader.h"
@@ -19,9 +21,19 @@ constexpr std::array<std::string_view, 8> of_others = {"material",           "tr
                                                        "ros2_control",       "sensor",       "group_state",
                                                        "disable_collisions", "mujoco"};
 
+void add_meshes(const xml::Element& collision, const std::string& model, std::set<std::string>& files) {
+  for (const xml::Element& geometry : collision.children) {
+    for (const xml::Element& shape : geometry.children) {
+      const xml::Attribute* given = shape.name == "mesh" ? shape.find("filename") : nullptr;
+      if (given != nullptr && is_mesh_file(given->value)) files.insert(mesh_name(given->value, model));
+    }
+  }
+}
+
 class Reader {
  public:
-  Reader(const xml::Element& root, const xml::LeaveOut& leave_out) : root_(root), leave_out_(leave_out) {}
+  Reader(const xml::Element& root, const MeshTexts& meshes, const xml::LeaveOut& leave_out)
+      : root_(root), meshes_(meshes), leave_out_(leave_out) {}
 
   links::ModelFile read() {
     xml::Attributes robot(root_, leave_out_);
@@ -40,7 +52,7 @@ class Reader {
  private:
   void read_one(const xml::Element& one) {
     if (one.name == "link") {
-      links_.push_back(read_link(one, leave_out_));
+      links_.push_back(read_link(one, meshes_, leave_out_));
       const links::Link& link = links_.back();
       core::require_input(index_.emplace(link.name, links_.size() - 1).second,
                           link.where + ": a second link " + core::in_quotes(link.name) + "; rename one");
@@ -132,6 +144,7 @@ class Reader {
   }
 
   const xml::Element& root_;
+  MeshTexts meshes_;
   const xml::LeaveOut& leave_out_;
   std::vector<links::Link> links_;
   std::map<std::string, std::size_t> index_;
@@ -142,8 +155,20 @@ class Reader {
 
 }  // namespace
 
-links::ModelFile read(const xml::Element& root, const xml::LeaveOut& leave_out) {
-  return Reader(root, leave_out).read();
+links::ModelFile read(const xml::Element& root, const std::string& file, const xml::Texts& texts,
+                      const xml::LeaveOut& leave_out) {
+  return Reader(root, {file, texts}, leave_out).read();
+}
+
+std::vector<std::string> mesh_files(const std::string& file, const xml::Texts& texts) {
+  std::set<std::string> files;
+  for (const xml::Element& link : xml::parse(texts.at(file), file).children) {
+    for (const xml::Element& collision : link.children) {
+      if (link.name == "link" && collision.name == "collision") add_meshes(collision, file, files);
+    }
+  }
+  files.erase("");
+  return {files.begin(), files.end()};
 }
 
 }  // namespace pbmpi::scenes::urdf

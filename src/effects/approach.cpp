@@ -43,7 +43,7 @@ bool may_meet(const model::Geom& geom, const model::BodyPose& pose, const core::
   if (other.shape == model::Shape::plane) {
     const core::Vec3 normal = axis_of(other_pose, 2);
     const double height = normal.dot(core::Vec3(pose.position) - core::Vec3(other_pose.position));
-    return height + normal.dot(way) <= geometry::half_extent(geom, pose.rotation, normal) + room;
+    return height + normal.dot(way) <= geometry::half_extent(geom, pose.rotation, -normal) + room;
   }
   geometry::Box path = geometry::box_at(geom, pose);
   for (std::size_t k = 0; k < 3; ++k) {

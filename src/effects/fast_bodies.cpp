@@ -192,7 +192,7 @@ void FastBodies::meet(const model::State& state, const Moving& fast, const core:
   const double other_ease = other_body == model::no_body ? 0 : ease_of_turning_[other_body];
   contact.normal = fast_is_a ? entry->normal : core::Vec3(-entry->normal);
   const double own_share = own_ease / (own_ease + other_ease);
-  const double overlap = geometry::half_extent(geom, fast.pose.rotation, entry->normal) - height;
+  const double overlap = geometry::half_extent(geom, fast.pose.rotation, -entry->normal) - height;
   const double to_between = overlap < 0 ? 0.5 * overlap : own_share * overlap;
   contact.depth = std::min(0.0, overlap);
   contact.position =

@@ -84,12 +84,28 @@ void outline_cylinder(const Solid& cylinder, const FaceFrame& frame, Outline& ou
     outline.add(frame.in(end + on_rim(i, radius, axis.cross(radius))));
 }
 
+/// The face of a hull that looks most directly against the normal: of many corners, sixteen.
+void outline_hull(const Solid& hull, const FaceFrame& frame, Outline& outline) {
+  constexpr int most_corners = 16;
+  const core::Vec3 towards = -(hull.axes.transpose() * frame.normal);
+  const auto face = std::ranges::max_element(
+      hull.hull->faces, {}, [&](const model::Hull::Face& one) { return towards.dot(one.normal); });
+  const int count = std::min(face->count, most_corners);
+  for (int i = 0; i < count; ++i) {
+    const int at = face->first + i * face->count / count;
+    const int vertex = hull.hull->corners[static_cast<std::size_t>(at)];
+    outline.add(frame.in(hull.centre + hull.axes * hull.hull->vertices[static_cast<std::size_t>(vertex)]));
+  }
+}
+
 Outline outline_of(const Solid& solid, const FaceFrame& frame) {
   Outline outline;
   if (solid.shape == Shape::box) {
     outline_box(solid, frame, outline);
   } else if (solid.shape == Shape::cylinder) {
     outline_cylinder(solid, frame, outline);
+  } else if (solid.shape == Shape::hull) {
+    outline_hull(solid, frame, outline);
   } else {
     const core::Vec3 foot = solid.centre - solid.extent.ball * frame.normal;
     const core::Vec3 half = solid.extent.half[2] * solid.axes.col(2);

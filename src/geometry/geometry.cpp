@@ -19,6 +19,13 @@ double reach_of_box(const Extent& extent, const double direction[3]) {
   return reach;
 }
 
+/// Extent [m] of a hull along a unit direction of its own frame.
+double reach_of_hull(const model::Hull& hull, const core::Vec3& direction) {
+  double reach = 0;
+  for (const core::Vec3& vertex : hull.vertices) reach = std::max(reach, direction.dot(vertex));
+  return reach;
+}
+
 }  // namespace
 
 bool is_ball(const model::Geom& geom) {
@@ -94,6 +101,7 @@ double half_extent(const model::Geom& geom, const double rotation[9], const core
     along[k] =
         rotation[k] * direction.x() + rotation[3 + k] * direction.y() + rotation[6 + k] * direction.z();
   }
+  if (geom.shape == model::Shape::hull) return reach_of_hull(*geom.hull, {along[0], along[1], along[2]});
   const Extent extent = extent_of(geom);
   const double rim = extent.disc > 0 ? extent.disc * std::sqrt(along[0] * along[0] + along[1] * along[1]) : 0;
   return reach_of_box(extent, along) + extent.ball + rim;
@@ -101,6 +109,10 @@ double half_extent(const model::Geom& geom, const double rotation[9], const core
 
 double least_half_extent(const model::Geom& geom) {
   if (geom.shape == model::Shape::plane) return model::infinity;
+  if (geom.shape == model::Shape::hull) {
+    const auto lowest = std::ranges::min_element(geom.hull->faces, {}, &model::Hull::Face::height);
+    return lowest->height;
+  }
   const auto& [half, ball, disc] = extent_of(geom);
   if (ball > 0) return ball;
   return disc > 0 ? std::min(disc, half[2]) : std::min({half[0], half[1], half[2]});
@@ -108,6 +120,11 @@ double least_half_extent(const model::Geom& geom) {
 
 double bounding_radius(const model::Geom& geom) {
   if (geom.shape == model::Shape::plane) return model::infinity;
+  if (geom.shape == model::Shape::hull) {
+    double most = 0;
+    for (const core::Vec3& vertex : geom.hull->vertices) most = std::max(most, vertex.norm());
+    return most;
+  }
   const auto& [half, ball, disc] = extent_of(geom);
   return std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2] + disc * disc) + ball;
 }

@@ -21,6 +21,7 @@ model::BodyPose static_pose();
 model::BodyPose geom_pose(const model::Geom& geom, const model::BodyPose& body);
 
 /// What a solid geom consists of: the points within a radius of a box about its centre, in its own frame [m].
+/// A hull only lies within its box.
 struct Extent {
   std::array<double, 3> half{};  ///< half sides of the box; a side may be 0
   double ball = 0;               ///< sphere, capsule: the radius in all directions
@@ -33,11 +34,11 @@ Extent extent_of(const model::Geom& geom);
 /// Half sides [m] of the smallest world-aligned box about the geom's centre that holds it. Not for planes.
 std::array<double, 3> half_extents(const model::Geom& geom, const double rotation[9]);
 
-/// Half of a geom's extent [m] along the unit `direction`; `rotation`: of the geom, by rows. Infinite for a
-/// plane.
+/// How far a geom reaches from its centre [m] along the unit `direction`; `rotation`: of the geom, by rows.
+/// Infinite for a plane.
 double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction);
 
-/// The least of a geom's half extents [m] over all directions; infinite for a plane.
+/// The least of a geom's reaches from its centre [m] over all directions; infinite for a plane.
 double least_half_extent(const model::Geom& geom);
 
 /// Is the geom a sphere about its body's centre of mass? It needs no orientation, and a normal force does not

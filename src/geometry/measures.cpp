@@ -40,9 +40,10 @@ double volume(Shape shape, const std::array<double, 3>& size) {
     case Shape::cylinder:
       return pi * radius * radius * size[1];
     case Shape::plane:
+    case Shape::hull:
       break;
   }
-  core::require_invariant(false, "volume() of a plane");
+  core::require_invariant(false, "volume() of a shape with sizes");
   return 0;
 }
 
@@ -64,9 +65,10 @@ model::Mat3 solid_inertia(Shape shape, const std::array<double, 3>& size, double
       return diagonal(across, across, m * rr / 2);
     }
     case Shape::plane:
+    case Shape::hull:
       break;
   }
-  core::require_invariant(false, "solid_inertia() of a plane");
+  core::require_invariant(false, "solid_inertia() of a shape with sizes");
   return model::Mat3::Identity();
 }
 
@@ -82,6 +84,8 @@ double drag_area(const model::Geom& geom) {
       return cd_cylinder * pi * a * (a + b) / 2;
     case Shape::box:
       return cd_box * (a * b + b * c + c * a) / 2;
+    case Shape::hull:
+      return cd_box * geom.hull->surface / 4;
     case Shape::plane:
       break;
   }

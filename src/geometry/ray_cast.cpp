@@ -38,6 +38,22 @@ Inside round(const core::Vec3& offset, const core::Vec3& way, double radius) {
   return {enter, (-b + root) / a, (offset + enter * way) / radius};
 }
 
+/// The part below the plane of a hull's face.
+Inside below(const core::Vec3& from, const core::Vec3& way, const model::Hull::Face& face) {
+  const double start = face.normal.dot(from) - face.height, rate = face.normal.dot(way);
+  if (rate == 0) return start <= 0 ? Inside{} : nowhere();
+  Inside part;
+  (rate < 0 ? part.enter : part.leave) = -start / rate;
+  part.normal = face.normal;
+  return part;
+}
+
+Inside hull(const core::Vec3& from, const core::Vec3& way, const model::Hull& hull) {
+  Inside all;
+  for (const model::Hull::Face& face : hull.faces) all = both(all, below(from, way, face));
+  return all;
+}
+
 core::Vec3 without_z(const core::Vec3& v) { return {v.x(), v.y(), 0}; }
 
 /// A capsule is the union of a cylinder and two balls, and convex: the line enters it where it first enters
@@ -72,6 +88,8 @@ Inside inside(const model::Geom& geom, const core::Vec3& from, const core::Vec3&
       return both(round(without_z(from), without_z(way), geom.size[0]), slab(from, way, 2, geom.size[1] / 2));
     case model::Shape::capsule:
       return capsule(from, way, geom.size[0], geom.size[1] / 2);
+    case model::Shape::hull:
+      return hull(from, way, *geom.hull);
   }
   return nowhere();
 }

@@ -110,7 +110,7 @@ void Seams::add_parts() {
     const model::Geom& geom = model_->geoms[static_cast<std::size_t>(i)];
     const int cluster =
         geom.body == model::no_body ? static_cluster : cluster_of[static_cast<std::size_t>(geom.body)];
-    if (cluster < 0) continue;
+    if (cluster < 0 || geom.shape == model::Shape::hull) continue;
     Part& part = parts_[static_cast<std::size_t>(i)];
     part.solid = solid_at(geom, geom_pose(geom, static_pose()));
     part.tolerance_m = tolerance_of(geom);
@@ -217,9 +217,9 @@ bool Seams::is_open(int geom, const Face& face, const Solid& other) const {
   double low[2], high[2];
   for (int k = 0; k < 2; ++k) {
     const double at = extent.along[k].dot(other.centre - extent.middle);
-    const double half = other.half_along(extent.along[k]), border = extent.half[k] - part.tolerance_m;
-    low[k] = std::max(at - half, -border);
-    high[k] = std::min(at + half, border);
+    const double border = extent.half[k] - part.tolerance_m;
+    low[k] = std::max(at - other.half_along(-extent.along[k]), -border);
+    high[k] = std::min(at + other.half_along(extent.along[k]), border);
     if (!(low[k] <= high[k])) return false;
   }
   const auto place = [&](int k, double share) {
@@ -285,7 +285,7 @@ void Seams::replace(const Touched& touched, double least_depth, const model::Con
   double least = model::infinity;
   for (const Face& face : faces_of(solid)) {
     const core::Vec3 normal = normal_of(solid, face);
-    const double half = touched.other.half_along(normal);
+    const double half = touched.other.half_along(-normal);
     const double overlap = solid.half_along(normal) + half - normal.dot(touched.other.centre - solid.centre);
     if (!(overlap < least && overlap <= 2 * half) || !is_open(touched.geom, face, touched.other)) continue;
     least = overlap;

@@ -74,6 +74,11 @@ Support::Kind move_to_cylinder(const Solid& solid, const core::Vec3& normal, cor
 
 double Solid::half_along(const core::Vec3& direction) const {
   const core::Vec3 along = axes.transpose() * direction;
+  if (hull != nullptr) {
+    double most = 0;
+    for (const core::Vec3& vertex : hull->vertices) most = std::max(most, along.dot(vertex));
+    return most;
+  }
   double half = extent.ball;
   for (int k = 0; k < 3; ++k) half += std::abs(along[k]) * extent.half[static_cast<std::size_t>(k)];
   return half + extent.disc * across_z(along).norm();
@@ -81,7 +86,8 @@ double Solid::half_along(const core::Vec3& direction) const {
 
 Solid solid_at(const model::Geom& geom, const model::BodyPose& pose) {
   using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  return {geom.shape, core::Vec3(pose.position), Eigen::Map<const RowMajor>(pose.rotation), extent_of(geom)};
+  return {geom.shape, core::Vec3(pose.position), Eigen::Map<const RowMajor>(pose.rotation), extent_of(geom),
+          geom.hull.get()};
 }
 
 Faces faces_of(const Solid& solid) {
@@ -134,6 +140,9 @@ std::optional<NormalCone> normals_at(const Solid& solid, const core::Vec3& point
       break;
     case Shape::box:
       for (int k = 0; k < 3; ++k) within = within && look_along(solid, at, k, tolerance, cone);
+      break;
+    case Shape::hull:  // never part of a solid of several (Seams)
+      within = false;
       break;
   }
   return within ? std::optional(cone) : std::nullopt;

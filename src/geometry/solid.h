@@ -14,8 +14,9 @@ struct Solid {
   core::Vec3 centre = core::Vec3::Zero();    ///< of a plane: a point of it
   core::Mat3 axes = core::Mat3::Identity();  ///< its own axes as columns; z is a plane's normal
   Extent extent;
+  const model::Hull* hull = nullptr;  ///< borrowed; with Shape::hull
 
-  /// Half its width [m] along a unit vector; 0 for a plane.
+  /// How far it reaches from its centre [m] along a unit vector; 0 for a plane.
   double half_along(const core::Vec3& direction) const;
 };
 
@@ -56,7 +57,7 @@ struct NormalCone {
 };
 
 /// The normals at a point; a face counts as there if it is within the tolerance [m] of the point. Nothing if
-/// the point is farther outside than that.
+/// the point is farther outside than that. Not for hulls.
 std::optional<NormalCone> normals_at(const Solid& solid, const core::Vec3& point, double tolerance);
 
 /// Where a solid is touched along an outward normal.
@@ -72,7 +73,7 @@ struct Support {
 };
 
 /// The point of the surface at which `normal` (unit, out of the solid) is a normal, nearest to `near`. Not
-/// for planes.
+/// for planes and hulls.
 Support support_at(const Solid& solid, const core::Vec3& normal, const core::Vec3& near);
 
 }  // namespace pbmpi::geometry

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -45,8 +46,30 @@ struct Body {
   Vec3 angular_velocity = Vec3::Zero();  ///< initial, world frame [rad/s]
 };
 
-enum class Shape { sphere, box, capsule, cylinder, plane };
-inline constexpr int num_shapes = 5;
+enum class Shape { sphere, box, capsule, cylinder, plane, hull };
+inline constexpr int num_shapes = 6;
+
+/// A convex polyhedron of uniform density, made by geometry/hulls/convex_hull.h; its origin is its centre of
+/// mass.
+struct Hull {
+  /// A flat face: `count` vertices of `corners` from `first` on, counter-clockwise as seen from outside.
+  struct Face {
+    Vec3 normal = Vec3::UnitZ();  ///< unit, outward
+    double height = 0;            ///< [m] of its plane above the origin
+    int first = 0, count = 0;
+  };
+  /// Two vertices, and the two faces that meet between them.
+  struct Edge {
+    std::array<int, 2> vertices{}, faces{};
+  };
+  std::vector<Vec3> vertices;  ///< [m]
+  std::vector<int> corners;    ///< indices of vertices, face by face
+  std::vector<Face> faces;
+  std::vector<Edge> edges;
+  double volume = 0;                ///< [m^3]
+  double surface = 0;               ///< [m^2]
+  Mat3 inertia = Mat3::Identity();  ///< [m^5] about the origin, for a density of 1
+};
 
 /// The surface of a geom. A pair of geoms has mu = sqrt(mu_a mu_b) and the larger restitution, unless
 /// Model::pair_materials says otherwise.
@@ -67,12 +90,13 @@ struct Geom {
   int space = 0;       ///< index into Model::spaces
   Shape shape = Shape::box;
   /// [m] sphere: radius; box: three full sides; capsule and cylinder: radius, length along z (a capsule's
-  /// without its caps); plane: unused.
+  /// without its caps); plane: unused; hull: three full sides of the box about its origin that holds it.
   std::array<double, 3> size{};
   /// The pose in the body's frame, or in the world frame for a static geom. A plane passes through the
   /// position, and its normal is the local z axis.
   Pose local;
   Material material;
+  std::shared_ptr<const Hull> hull = nullptr;  ///< with Shape::hull; shared by geoms and worlds
 };
 
 enum class JointKind { ball, hinge, slider, universal, fixed, hinge2 };

@@ -85,6 +85,7 @@ void validate_geom(const Model& model, const Geom& geom, const std::string& who)
     require_input(std::isfinite(geom.size[i]) && geom.size[i] > 0,
                   who + ": size " + std::to_string(geom.size[i]) + " m must be finite and above 0");
   }
+  require_input(geom.shape != Shape::hull || geom.hull != nullptr, who + ": a hull without its points");
   require_input(geom.shape != Shape::plane || geom.body == no_body,
                 who + ": a plane cannot belong to a body");
   require_material(geom.material, who);

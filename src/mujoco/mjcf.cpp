@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -77,6 +78,7 @@ class Writer {
   std::string write() {
     text_ = "<mujoco><compiler angle='radian' inertiafromgeom='false'/>";
     write_options();
+    write_meshes();
     text_ += "<worldbody>";
     write_inside(model::no_body);
     text_ += "</worldbody>";
@@ -107,6 +109,22 @@ class Writer {
              attribute("solimp", contact_impedance) + "/><equality" + attribute("solref", joints) +
              attribute("solimp", stiff) + "/></default>";
   }
+
+  /// One mesh for all geoms that share a hull. MuJoCo finds its faces, and moves the geom's frame to its
+  /// centre of mass and principal axes, which moves no point of it.
+  void write_meshes() {
+    std::string meshes;
+    for (const model::Geom& geom : parts_.model.geoms) {
+      if (geom.shape != model::Shape::hull || !meshes_.emplace(geom.hull.get(), meshes_.size()).second)
+        continue;
+      std::string vertices;
+      for (const model::Vec3& vertex : geom.hull->vertices) vertices += numbers(vertex) + " ";
+      meshes += "<mesh" + attribute("name", mesh_name(*geom.hull)) + attribute("vertex", vertices) + "/>";
+    }
+    if (!meshes.empty()) text_ += "<asset>" + meshes + "</asset>";
+  }
+
+  std::string mesh_name(const model::Hull& hull) const { return "m" + std::to_string(meshes_.at(&hull)); }
 
   void write_inside(int body) {
     for (const int geom : geoms_[slot(body)]) write_geom(geom);
@@ -155,9 +173,11 @@ class Writer {
 
   void write_geom(int index) {
     const model::Geom& geom = parts_.model.geoms[index];
+    const bool is_mesh = geom.shape == model::Shape::hull;
     text_ += "<geom" + attribute("name", geom_name(index)) +
-             attribute("type", std::string(model::traits_of(geom.shape).name)) +
-             attribute("size", size_of(geom)) + place(geom.local) + "/>";
+             attribute("type", is_mesh ? "mesh" : std::string(model::traits_of(geom.shape).name)) +
+             (is_mesh ? attribute("mesh", mesh_name(*geom.hull)) : attribute("size", size_of(geom))) +
+             place(geom.local) + "/>";
   }
 
   /// Pairs of bodies whose geoms never touch, which the broad phase then drops; TouchRule has the last word.
@@ -206,8 +226,9 @@ class Writer {
 
   MjcfParts parts_;
   int stack_;
-  std::vector<std::vector<int>> children_;  ///< [1 + bodies] children of the world and of each body
-  std::vector<std::vector<int>> geoms_;     ///< [1 + bodies] geoms of the world and of each body
+  std::vector<std::vector<int>> children_;            ///< [1 + bodies] children of the world and of each body
+  std::vector<std::vector<int>> geoms_;               ///< [1 + bodies] geoms of the world and of each body
+  std::map<const model::Hull*, std::size_t> meshes_;  ///< the number of each
   std::string text_;
 };
 

@@ -25,6 +25,12 @@ double inner_radius(const Geom& geom) {
     return extent.half[static_cast<std::size_t>(axis)] - std::abs(centre[axis]);
   };
   if (geom.shape == Shape::plane) return 0;
+  if (geom.shape == Shape::hull) {
+    double least = model::infinity;
+    for (const model::Hull::Face& face : geom.hull->faces)
+      least = std::min(least, face.height - face.normal.dot(centre));
+    return least;
+  }
   if (extent.ball > 0) return extent.ball - Vec3(centre.x(), centre.y(), std::max(0.0, -side(2))).norm();
   if (extent.disc > 0)
     return std::min(extent.disc - std::sqrt(centre.x() * centre.x() + centre.y() * centre.y()), side(2));

@@ -96,6 +96,8 @@ bool holds(const model::Geom& geom, const core::Vec3& p) {
       return across <= geom.size[0] && 2 * std::abs(p.z()) <= geom.size[1];
     case model::Shape::plane:
       return p.z() <= 0;
+    case model::Shape::hull:  // tests/geometry/hulls
+      break;
   }
   return false;
 }

@@ -70,6 +70,11 @@ void add_points(const btCollisionShape& shape, const btTransform& place, Face& f
         add_rim(place * btVector3(0, 0, end), place, half.x(), face);
       return;
     }
+    case CONVEX_HULL_SHAPE_PROXYTYPE: {
+      const auto& hull = static_cast<const btConvexHullShape&>(shape);
+      for (int i = 0; i < hull.getNumPoints(); ++i) face.add(place * hull.getUnscaledPoints()[i]);
+      return;
+    }
     default: {
       const btVector3 half = static_cast<const btBoxShape&>(shape).getHalfExtentsWithMargin();
       for (int corner = 0; corner < 8; ++corner) {

@@ -5,6 +5,15 @@
 namespace pbmpi::bullet {
 namespace {
 
+std::unique_ptr<btCollisionShape> make_hull(const model::Hull& hull) {
+  auto shape = std::make_unique<btConvexHullShape>();
+  shape->setMargin(0);  // the default would widen the hull by 4 cm
+  for (const model::Vec3& vertex : hull.vertices)
+    shape->addPoint(btVector3(vertex.x(), vertex.y(), vertex.z()), false);
+  shape->recalcLocalAabb();
+  return shape;
+}
+
 std::unique_ptr<btCollisionShape> make_shape(const model::Geom& geom) {
   const auto& [a, b, c] = geom.size;
   switch (geom.shape) {
@@ -18,6 +27,8 @@ std::unique_ptr<btCollisionShape> make_shape(const model::Geom& geom) {
       return std::make_unique<btCylinderShapeZ>(btVector3(a, a, b / 2));
     case model::Shape::plane:
       return std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0);
+    case model::Shape::hull:
+      return make_hull(*geom.hull);
   }
   throw std::logic_error("bullet: a geom without a shape");
 }

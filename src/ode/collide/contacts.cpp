@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "geometry/geometry.h"
+
 namespace pbmpi::ode {
 
 Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
@@ -61,26 +63,54 @@ void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const st
   touches_.clear();
   deepest_m_ = 0;
   for (const GeomPair& pair : pairs) {
-    int num_contacts = dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()),
-                                found_.data(), sizeof(dContactGeom));
+    int num_contacts = collide(pair, geoms);
     if (seams_) num_contacts = correct_at_seams(pair, num_contacts);
     if (num_contacts > 0) join(world, pair, num_contacts);
   }
+}
+
+int Contacts::collide(const GeomPair& pair, const std::vector<dGeomID>& geoms) {
+  if (geometry::has_hull(model_->geoms[pair.first], model_->geoms[pair.second])) return collide_hulls(pair);
+  return dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()), found_.data(),
+                  sizeof(dContactGeom));
+}
+
+/// ODE's own colliders for convex shapes know neither capsules nor cylinders.
+int Contacts::collide_hulls(const GeomPair& pair) {
+  const auto placed = [&](const model::Geom& geom) {
+    return geometry::geom_pose(geom,
+                               geom.body == model::no_body ? geometry::static_pose() : pose_of(geom.body));
+  };
+  const model::Geom &first = model_->geoms[pair.first], &second = model_->geoms[pair.second];
+  const geometry::ContactPoints points = hulls_.collide(first, placed(first), second, placed(second));
+  const int count = std::min(points.count, static_cast<int>(found_.size()));
+  for (int i = 0; i < count; ++i) {
+    dContactGeom& found = found_[static_cast<std::size_t>(i)];
+    const geometry::ContactPoint& point = points.points[static_cast<std::size_t>(i)];
+    for (int k = 0; k < 3; ++k) {
+      found.pos[k] = real(point.position[k]);
+      found.normal[k] = real(points.normal[k]);
+    }
+    found.depth = real(point.depth);
+  }
+  return count;
+}
+
+model::BodyPose Contacts::pose_of(int body) const {
+  model::BodyPose pose;
+  std::copy_n(dBodyGetPosition(bodies_[body]), 3, pose.position);
+  const dReal* rotation = dBodyGetRotation(bodies_[body]);  // rows of four
+  for (int row = 0; row < 3; ++row) std::copy_n(rotation + 4 * row, 3, pose.rotation + 3 * row);
+  return pose;
 }
 
 /// Returns how many contacts are left. ODE's normals point into the first geom.
 int Contacts::correct_at_seams(const GeomPair& pair, int num_contacts) {
   corrected_.clear();
   for (int i = 0; i < num_contacts; ++i) corrected_.push_back(to_contact(*model_, pair, found_[i]));
-  const auto pose_of = [&](int body) {
-    model::BodyPose pose;
-    std::copy_n(dBodyGetPosition(bodies_[body]), 3, pose.position);
-    const dReal* rotation = dBodyGetRotation(bodies_[body]);  // rows of four
-    for (int row = 0; row < 3; ++row) std::copy_n(rotation + 4 * row, 3, pose.rotation + 3 * row);
-    return pose;
-  };
   constexpr double touching = 0;
-  seams_->correct(0, touching, pose_of, corrected_);
+  seams_->correct(
+      0, touching, [&](int body) { return pose_of(body); }, corrected_);
   const bool swapped = model_->geoms[pair.first].body == model::no_body;
   for (std::size_t i = 0; i < corrected_.size(); ++i) {
     const model::Contact& contact = corrected_[i];

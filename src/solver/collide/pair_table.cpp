@@ -38,6 +38,7 @@ constexpr std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> 
                                 {Shape::cylinder, Shape::box, PairKind::cylinder_box},
                                 {Shape::cylinder, Shape::cylinder, PairKind::cylinder_cylinder}};
   std::array<std::array<Pairing, model::num_shapes>, model::num_shapes> all{};
+  for (auto& row : all) row.fill(Pairing{});  // g++ 12 leaves the last element of `all{}` zero
   for (const Kernel& kernel : kernels) {
     const auto a = static_cast<std::size_t>(kernel.a), b = static_cast<std::size_t>(kernel.b);
     all[b][a] = {kernel.kind, true};

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
+#include "geometry/hulls/hull_contacts.h"
 #include "solver/pack/simd.h"
 
 namespace pbmpi::solver {
@@ -44,6 +45,14 @@ void start_memory(bool remembers, const model::Model& model, model::StepMemory& 
 
 double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model) {
   return settings.law.contact_margin * model.gravity.norm() * settings.dt_s * settings.dt_s;
+}
+
+std::unique_ptr<model::NarrowPhase> make_fallback(const stepping::StepperSettings& settings,
+                                                  const model::Model& model,
+                                                  const model::MakeNarrowPhase& make_other) {
+  const bool lanes_collide = settings.law.colliders == stepping::Colliders::lanes;
+  return geometry::with_hulls(make_other(model), model,
+                              lanes_collide ? contact_margin_m(settings, model) : 0);
 }
 
 Spring contact_spring(const stepping::StepperSettings& settings) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
+#include "model/contact.h"
 #include "solver/pack/pack.h"
 #include "stepping/stepper.h"
 
@@ -37,6 +39,11 @@ void start_memory(bool remembers, const model::Model& model, model::StepMemory& 
 
 /// [m] The gap up to which the lanes are to find contacts in a world: PackedWorld::contact_margin_m.
 double contact_margin_m(const stepping::StepperSettings& settings, const model::Model& model);
+
+/// Collides the pairs of a world that the lanes do not: those of hulls, and those that `make_other` is for.
+std::unique_ptr<model::NarrowPhase> make_fallback(const stepping::StepperSettings& settings,
+                                                  const model::Model& model,
+                                                  const model::MakeNarrowPhase& make_other);
 
 /// The springs of a run's contacts, and of its joints' rows that hold a place and an orientation.
 Spring contact_spring(const stepping::StepperSettings& settings);

@@ -78,7 +78,7 @@ SorWorld::SorWorld(int id, std::shared_ptr<const model::Model> model, const mode
       step_(step),
       rules_(*model_, settings.dt_s, settings.iterations, effects::StepRules::World::whole, state_,
              most_approach_m(settings)),
-      narrow_phase_(make_narrow_phase(*model_)),
+      narrow_phase_(make_fallback(settings, *model_, make_narrow_phase)),
       remembers_(remembers(settings)),
       shows_contacts_(settings.contacts),
       shares_(IslandShares::find(*model_, settings)),

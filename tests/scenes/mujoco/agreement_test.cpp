@@ -72,6 +72,35 @@ TEST(Mujoco, agrees_on_two_hinges_at_right_angles) {
   EXPECT_LT(finer, difference(world) / 3);
 }
 
+/// A convex mesh that has no symmetry, in its own place and twice as long as its points say.
+const std::string mesh =
+    "</worldbody><asset><mesh name='m' scale='1 2 1' vertex='0 0 0 .3 .02 0 .05 .1 .03 .1 -.05 .2 -.1 .03 .1 "
+    ".2 "
+    ".05 .15'/></asset><worldbody>";
+
+// MuJoCo keeps the points of meshes in single precision.
+TEST(Mujoco, agrees_on_a_mesh_that_flies) {
+  EXPECT_LT(difference(mesh + "<body name='b' pos='0 0 9' euler='.3 .2 .1'><freejoint/>"
+                              "<geom type='mesh' mesh='m' pos='.1 .2 .3' euler='.4 .5 .6'/></body>"),
+            1e-7);
+}
+
+// How it swings shows its mass properties.
+TEST(Mujoco, agrees_on_a_ball_joint_with_a_mesh) {
+  EXPECT_LT(difference(mesh + "<body name='b' euler='.1 .2 .3'><joint type='ball'/>"
+                              "<geom type='mesh' mesh='m' pos='.1 .2 .3' euler='.4 .5 .6'/></body>"),
+            close_m);
+}
+
+TEST(Mujoco, agrees_on_a_mesh_at_rest) {
+  EXPECT_LT(
+      difference(
+          "</worldbody><asset><mesh name='m' vertex='.2 .2 -.1 .2 -.2 -.1 -.2 .2 -.1 -.2 -.2 -.1 .1 .1 .1 "
+          ".1 -.1 .1 -.1 .1 .1 -.1 -.1 .1'/></asset><worldbody><geom type='plane' size='9 9 1'/>"
+          "<body name='b' pos='0 0 .1'><freejoint/><geom type='mesh' mesh='m'/></body>"),
+      close_m);
+}
+
 TEST(Mujoco, agrees_on_a_cart_and_pole) {
   EXPECT_LT(difference(cart_and_pole("<joint type='slide' axis='1 0 0'/>")), close_m);
 }

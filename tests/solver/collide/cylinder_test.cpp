@@ -346,12 +346,13 @@ class CountingPhase : public model::NarrowPhase {
   int asked = 0;
 };
 
-// All scenes consist of these shapes, so no pair of any scene goes to ODE.
+// All scenes consist of these shapes, and hulls have a narrow phase of their own, so no pair goes to ODE.
 TEST(Kernels, no_pair_of_shapes_is_left_to_dcollide) {
   for (int first = 0; first < model::num_shapes; ++first) {
     for (int second = 0; second < model::num_shapes; ++second) {
       const auto a = static_cast<Shape>(first), b = static_cast<Shape>(second);
       if (a == Shape::plane && b == Shape::plane) continue;  // both static: never a pair
+      if (a == Shape::hull || b == Shape::hull) continue;
       Dice dice(43);
       model::Model model = make_model({a, b}, dice);
       for (model::Geom& geom : model.geoms) geom.local = {};  // all at the origin, a plane through it

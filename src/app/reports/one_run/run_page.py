@@ -182,6 +182,17 @@ def poses(run, chosen, name):
     return np.concatenate([initial[None], recorded])
 
 
+def hulls(run, shown):
+    """The hull of each of these geoms, as an index into a list of triangles; -1 = none. Nothing for a run without hulls."""
+    if not run.has("hulls/corners"):
+        return {}
+    owner, corners, of_geom = (run.column(name)[:] for name in ("hulls/geom", "hulls/corners", "geoms/hull"))
+    of_geom = of_geom[shown]
+    used = [int(geom) for geom in np.unique(of_geom) if geom >= 0]
+    return {"hull": packed([used.index(geom) if geom >= 0 else -1 for geom in of_geom], "i4"),
+            "hulls": [packed(corners[owner == geom]) for geom in used]}
+
+
 def geoms(run, num_worlds):
     """Names of shapes and columns of the geoms of the first worlds. An unknown kind, of a file of a newer minor version, counts as prop; the
     page does not draw a geom of an unknown shape."""
@@ -189,7 +200,7 @@ def geoms(run, num_worlds):
     kind, shape = ([texts[geom] for geom in shown] for texts in (run.column("geoms/kind"), run.column("geoms/shape")))
     world, body, size, position, orientation = (run.column(f"geoms/{name}")[shown] for name in ("world", "body", "size", "position", "orientation"))
     shapes = list(dict.fromkeys(shape))
-    return shapes, {"kind": packed([KINDS.index(name if name in KINDS else "prop") for name in kind], "u1"),
+    return shapes, {**hulls(run, shown), "kind": packed([KINDS.index(name if name in KINDS else "prop") for name in kind], "u1"),
                     "shape": packed([shapes.index(name) for name in shape], "u1"), "world": packed(world, "i4"), "body": packed(body, "i4"),
                     "size": packed(size), "local": packed(np.concatenate([position, orientation], 1))}
 

@@ -14,7 +14,9 @@ pb.about = pb.json('about-data');
 
 // The replay's arrays. Frame 0 is the initial pose.
 //   timeS, step, number [F], the last counting frames from the start of the simulation; position [F][N][3] m; orientation [F][N][4] (w, x, y, z); bodyWorld [N]
-//   geoms: kind, shape, world, body (-1 = static) [G]; size [G][3] m; local [G][7] position, orientation
+//   geoms: kind, shape, world, body (-1 = static) [G]; size [G][3] m; local [G][7] position, orientation;
+//   hull: index into hulls, or -1 [G], null without hulls
+//   hulls: of each the triangles, in the geom's frame [T][3 corners][3] m
 pb.decodeReplay = (raw) => {
   return {
     note: raw.note,
@@ -37,7 +39,9 @@ pb.decodeReplay = (raw) => {
       body: pb.integers(raw.geoms.body),
       size: pb.floats(raw.geoms.size),
       local: pb.floats(raw.geoms.local),
+      hull: raw.geoms.hull ? pb.integers(raw.geoms.hull) : null,
     },
+    hulls: (raw.geoms.hulls || []).map(pb.floats),
   };
 };
 

@@ -16,9 +16,19 @@ pb.unitSolids = (numInstances) => {
   };
 };
 
+// A hull as a solid in its own size.
+pb.hullSolid = (corners) => {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
+  geometry.computeVertexNormals();
+  return geometry;
+};
+
 // The solids of a geom: name, place along the local z axis [m], scale, whether upside down.
-pb.solidsOf = (shape, [a, b, c]) => {
+pb.solidsOf = (shape, [a, b, c], hull) => {
   switch (shape) {
+    // Without its surface, as in the file of a study, a hull is drawn as an ellipsoid.
+    case 'hull': return [hull < 0 ? {solid: 'ball', z: 0, scale: [a / 2, b / 2, c / 2]} : {solid: `hull${hull}`, z: 0, scale: [1, 1, 1]}];
     case 'sphere': return [{solid: 'ball', z: 0, scale: [a, a, a]}];
     case 'box': return [{solid: 'box', z: 0, scale: [a, b, c]}];
     case 'cylinder': return [{solid: 'drum', z: 0, scale: [a, a, b]}];
@@ -47,7 +57,7 @@ pb.instancesOf = (replay, shown) => {
     const shape = shapeNames[geoms.shape[g]];
     const pose = pb.poseMatrix(geoms.local, 7 * g);
     const vehicle = kind === 'car' || kind === 'tank' || kind === 'centipede';
-    for (const part of pb.solidsOf(shape, geoms.size.subarray(3 * g, 3 * g + 3))) {
+    for (const part of pb.solidsOf(shape, geoms.size.subarray(3 * g, 3 * g + 3), geoms.hull ? geoms.hull[g] : -1)) {
       const turn = new THREE.Quaternion(part.upsideDown ? 1 : 0, 0, 0, part.upsideDown ? 0 : 1);
       const local = pose.clone().multiply(new THREE.Matrix4().compose(
           new THREE.Vector3(0, 0, part.z), turn, new THREE.Vector3(...part.scale)));

@@ -32,6 +32,7 @@ pb.Stage = class {
     this.offsets = offsets;
     const instances = pb.instancesOf(this.replay, new Set(offsets.keys()));
     const solids = pb.unitSolids(instances.length);
+    this.replay.hulls.forEach((corners, i) => { solids[`hull${i}`] = pb.hullSolid(corners); });
     const sorted = new Map();
     for (const instance of instances) {
       const key = `${instance.kind} ${instance.solid}`;

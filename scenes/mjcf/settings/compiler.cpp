@@ -1,4 +1,4 @@
-#include "scenes/mjcf/compiler.h"
+#include "scenes/mjcf/settings/compiler.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "scenes/mjcf/defaults.h"
+#include "scenes/mjcf/settings/defaults.h"
 
 #include <algorithm>
 #include <array>

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scenes/mjcf/compiler.h"
+#include "scenes/mjcf/settings/compiler.h"
 #include "scenes/xml/element.h"
 #include "scenes/xml/leave_out.h"
 
@@ -33,12 +34,15 @@ class Defaults {
   std::map<std::string, ByElement> classes_{{"main", {}}};
 };
 
+class Meshes;
+
 /// What the rest of the file specifies about its bodies and servos.
 struct Context {
   Compiler compiler;
   Option option;
   Defaults defaults;
   const xml::LeaveOut& leave_out;
+  std::shared_ptr<Meshes> meshes = nullptr;  ///< mesh_reader.h
 };
 
 }  // namespace pbmpi::scenes::mjcf
