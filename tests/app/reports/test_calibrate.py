@@ -85,7 +85,7 @@ class Traffic(unittest.TestCase):
         self.assertEqual((linear.busiest_rank_bytes, tree.busiest_rank_bytes), (5 * 176, 32 * 5 * 176))
 
     def test_is_that_of_the_ranks_one_by_one(self):
-        """By brute force over the parents of all ranks, as mpi/comm/rank_tree.h defines them."""
+        """By brute force over the parents of all ranks, as mpi/comm/tree_gather.h defines them."""
         for ranks, worlds in ((2, 7), (33, 40), (100, 250), (1025, 1500), (2111, 9000)):
             load = Load(ranks, worlds, 2)
             sent = [load.world_bytes() * (worlds // ranks + (rank < worlds % ranks)) for rank in range(ranks)]
