@@ -13,12 +13,13 @@ namespace {
 constexpr const char* enclosed_mark = "# encloses ";
 constexpr const char* left_out_mark = "# leaves out ";
 
-/// Does each edge of a triangle have another one the other way?
+/// Does each edge of a triangle have another one the other way? A triangle two of whose corners are one point
+/// encloses nothing.
 bool is_closed(const Mesh& mesh) {
   std::vector<std::pair<int, int>> ways, back;
   for (const auto& [a, b, c] : mesh.triangles) {
     for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-      if (from == to) return false;
+      if (from == to) continue;
       ways.emplace_back(from, to);
       back.emplace_back(to, from);
     }

@@ -63,6 +63,13 @@ TEST(MeshText, keeps_the_points_of_the_hull_and_what_the_surface_encloses) {
   EXPECT_NEAR(read.enclosed->moments(0, 1), 4.5 * 9 * (0.05 - 1.0 / 16), 1e-13);
 }
 
+TEST(MeshText, passes_over_triangles_that_are_lines) {
+  const std::string lines = "f 1 1 2\nf 3 2 2\nf 4 4 4\n";
+  EXPECT_NEAR(
+      read_mesh_text(mesh_text(read_mesh(tetrahedron + lines, "a.obj"), "a.obj"), "a.obj").enclosed->volume,
+      4.5, 1e-14);
+}
+
 TEST(MeshText, knows_a_surface_that_is_not_closed) {
   const std::string open = tetrahedron.substr(0, tetrahedron.find("f -3"));
   EXPECT_FALSE(read_mesh_text(mesh_text(read_mesh(open, "a.obj"), "a.obj"), "a.obj").enclosed);
