@@ -59,7 +59,7 @@ for scene in "${scenes[@]}"; do
 done
 pictures=()
 [[ $stills == no ]] || pictures=(--stills "$out/stills")
-"$bin/pbreport" islands "${files[@]}"
+python3 "$jobs/paper/paper.py" islands "${files[@]}"
 export PBMPI_BIN=$bin
 python3 "$jobs/paper/paper.py" cores "${files[@]}"
 python3 "$jobs/paper/paper.py" figure6 "${files[@]}" ${pictures[@]+"${pictures[@]}"} --html "$out/figure6.html"
