@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "core/number_text.h"
+#include "core/text.h"
 #include "geometry/hulls/convex_hull.h"
 #include "geometry/hulls/solid_integrals.h"
 

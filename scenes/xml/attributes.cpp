@@ -6,7 +6,6 @@
 #include <system_error>
 
 #include "core/error.h"
-#include "core/number_text.h"
 #include "core/quantity.h"
 #include "core/text.h"
 
