@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what value prediction gains a frame of pbmpi, and what it does to its result: runs under the Valgrind tool pbvalue (docs/prediction.md).
+"""Measures what value prediction gains a frame of pbmpi, and what it does to its result: runs under the Valgrind tool pbvalue (docs/research/prediction.md).
 
 The results of instructions are predicted, exactly (EVP) and within a threshold (FVP), and those that are near go on into the simulation. Counts hits,
 instructions and the cycles of the paper's processor, and compares the result with the unpredicted run. Needs h5py, and the built pbmpi (PBMPI_BIN,

@@ -3,6 +3,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -68,8 +69,8 @@ class Install(unittest.TestCase):
         link.unlink()
         link.symlink_to("/nowhere/default.supp")
         self.addCleanup(lambda: (link.unlink(), link.symlink_to(target)))
-        result = subprocess.run([self.prefix / "bin/pbstudy", "prediction", "--scene", "CrashSk"], cwd=self.root, timeout=60,
-                                capture_output=True, text=True, check=False)
+        result = subprocess.run([sys.executable, SOURCE / "jobs/paper/predict.py", "--scene", "CrashSk"], cwd=self.root, timeout=60,
+                                capture_output=True, text=True, check=False, env={**os.environ, "PBMPI_BIN": f"{self.prefix}/bin"})
         self.assertEqual(result.returncode, 2)
         self.assertIn("Valgrind is not installed", result.stderr)
 

@@ -98,8 +98,8 @@ class Files:
             return
         with open(self.path("ball.toml"), "w", encoding="utf-8") as file:
             file.write(BALL)
-        self.run("pbstudy", "prediction", "--scene", "ball.toml", "--frames", 1, "--warmup", 0, "--threshold", 1e-6, "--detail-scene", "none",
-                 "--output", "prediction.h5", "--quiet")
+        self.run(PAPER[0], os.path.join(SOURCE, "jobs/paper/predict.py"), "--scene", "ball.toml", "--frames", 1, "--warmup", 0,
+                 "--threshold", 1e-6, "--detail-scene", "none", "--output", "prediction.h5", "--quiet")
         self.paper_page("prediction", "prediction", "prediction.h5")
 
     def figures(self):
