@@ -12,6 +12,7 @@ namespace {
 const model::Hull& cube() {
   static const FoundHull found = [] {
     std::vector<core::Vec3> corners;
+    corners.reserve(8);
     for (int i = 0; i < 8; ++i)
       corners.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
     return convex_hull(corners, 8, "cube");
