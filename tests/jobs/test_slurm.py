@@ -187,8 +187,7 @@ class ScalingSweep(JobTest):
             self.assertEqual(job["ExitCode"], "0:0", self.log_of(f"slurm-{job_id}_{job['ArrayTaskId']}.out"))
         runs = {name for name in os.listdir(self.path("out")) if name.endswith(".h5")}
         self.assertEqual(runs, {f"{point}-k{k}.h5" for k in (1, 2) for point in (
-            "CrashSk-worlds-w4-r1", "CrashSk-worlds-w4-r2", "Fight-worlds-w1-r1", "Fight-spaces-w1-r1", "Fight-spaces-w1-r2")}
-            | {"Fight-islands.h5"})
+            "CrashSk-worlds-w4-r1", "CrashSk-worlds-w4-r2", "Fight-worlds-w1-r1", "Fight-spaces-w1-r1", "Fight-spaces-w1-r2")})
         run = self.check_file("out/Fight-spaces-w1-r2-k2.h5", complete=1)
         self.assertEqual((run["ranks"], run["parameters"]["env_SLURM_ARRAY_TASK_ID"]), (2, "2"))
         text = self.log_of("out/scaling.txt")
