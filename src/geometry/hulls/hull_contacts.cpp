@@ -37,7 +37,7 @@ bool reaches_in(const Core& core, const Polyhedron& other) {
   return enter <= leave;
 }
 
-/// Lies the point, which is in a face's plane, within the face?
+/// Does the point, which is in a face's plane, lie within the face?
 bool is_on_face(const Polyhedron& one, int face, const core::Vec3& point) {
   const int count = one.num_corners(face);
   for (int i = 0; i < count; ++i) {
@@ -171,7 +171,7 @@ class HullNarrowPhase final : public model::NarrowPhase {
     const model::Geom &first = geom(pair.first), &second = geom(pair.second);
     const ContactPoints found = hulls_.collide(first, pose(first, poses), second, pose(second, poses));
     for (int i = 0; i < std::min(found.count, model_->contact_law.max_per_pair); ++i)
-      contacts.push_back(contact_at(*model_, pair, found, i));
+      contacts.push_back(contact_at(*model_, pair, found.normal, found.points[static_cast<std::size_t>(i)]));
   }
 
   std::unique_ptr<model::NarrowPhase> other_;
@@ -181,18 +181,17 @@ class HullNarrowPhase final : public model::NarrowPhase {
 
 }  // namespace
 
-model::Contact contact_at(const model::Model& model, const model::GeomPair& pair, const ContactPoints& found,
-                          int point) {
+model::Contact contact_at(const model::Model& model, const model::GeomPair& pair, const core::Vec3& normal,
+                          const ContactPoint& point) {
   const model::Geom& first = model.geoms[static_cast<std::size_t>(pair.first)];
   const model::Geom& second = model.geoms[static_cast<std::size_t>(pair.second)];
   const bool swapped = first.body == model::no_body;  // body a must be a real one
-  const ContactPoint& at = found.points[static_cast<std::size_t>(point)];
   model::Contact contact;
   contact.body_a = swapped ? second.body : first.body;
   contact.body_b = swapped ? first.body : second.body;
-  contact.position = at.position;
-  contact.normal = swapped ? core::Vec3(-found.normal) : found.normal;
-  contact.depth = at.depth;
+  contact.position = point.position;
+  contact.normal = swapped ? core::Vec3(-normal) : normal;
+  contact.depth = point.depth;
   const model::Material material = model::pair_material(model, pair, first.material, second.material);
   contact.mu = material.mu;
   contact.restitution = material.restitution;

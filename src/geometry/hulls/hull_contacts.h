@@ -39,9 +39,10 @@ inline bool has_hull(const model::Geom& first, const model::Geom& second) {
   return first.shape == model::Shape::hull || second.shape == model::Shape::hull;
 }
 
-/// The `point`-th of the points that were found for a pair, as a contact: body a is a real one.
-model::Contact contact_at(const model::Model& model, const model::GeomPair& pair, const ContactPoints& found,
-                          int point);
+/// A point that was found for a pair, with the normal into its first geom, as a contact: body a is a real
+/// one.
+model::Contact contact_at(const model::Model& model, const model::GeomPair& pair, const core::Vec3& normal,
+                          const ContactPoint& point);
 
 /// `other`, with HullContacts for the pairs that have a hull. `model` is borrowed.
 std::unique_ptr<model::NarrowPhase> with_hulls(std::unique_ptr<model::NarrowPhase> other,

@@ -5,6 +5,17 @@
 #include "geometry/geometry.h"
 
 namespace pbmpi::ode {
+namespace {
+
+void put(const model::Vec3& position, const model::Vec3& normal, double depth, dContactGeom& found) {
+  for (int k = 0; k < 3; ++k) {
+    found.pos[k] = real(position[k]);
+    found.normal[k] = real(normal[k]);
+  }
+  found.depth = real(depth);
+}
+
+}  // namespace
 
 Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
                    const std::vector<dBodyID>& bodies)
@@ -23,20 +34,7 @@ Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
 }
 
 model::Contact to_contact(const model::Model& model, const GeomPair& pair, const dContactGeom& found) {
-  const model::Geom& a = model.geoms[pair.first];
-  const model::Geom& b = model.geoms[pair.second];
-  const bool swapped = a.body == model::no_body;  // the normal points into the first geom; a must be real
-  model::Contact contact;
-  contact.body_a = swapped ? b.body : a.body;
-  contact.body_b = swapped ? a.body : b.body;
-  contact.position = vec3(found.pos);
-  contact.normal = swapped ? model::Vec3(-vec3(found.normal)) : vec3(found.normal);
-  contact.depth = found.depth;
-  const model::Material material = model::pair_material(model, pair, a.material, b.material);
-  contact.mu = material.mu;
-  contact.restitution = material.restitution;
-  contact.geoms = pair;
-  return contact;
+  return geometry::contact_at(model, pair, vec3(found.normal), {vec3(found.pos), found.depth});
 }
 
 void Contacts::watch(dJointID joint, const model::Contact& contact) {
@@ -85,13 +83,8 @@ int Contacts::collide_hulls(const GeomPair& pair) {
   const geometry::ContactPoints points = hulls_.collide(first, placed(first), second, placed(second));
   const int count = std::min(points.count, static_cast<int>(found_.size()));
   for (int i = 0; i < count; ++i) {
-    dContactGeom& found = found_[static_cast<std::size_t>(i)];
     const geometry::ContactPoint& point = points.points[static_cast<std::size_t>(i)];
-    for (int k = 0; k < 3; ++k) {
-      found.pos[k] = real(point.position[k]);
-      found.normal[k] = real(points.normal[k]);
-    }
-    found.depth = real(point.depth);
+    put(point.position, points.normal, point.depth, found_[static_cast<std::size_t>(i)]);
   }
   return count;
 }
@@ -114,11 +107,7 @@ int Contacts::correct_at_seams(const GeomPair& pair, int num_contacts) {
   const bool swapped = model_->geoms[pair.first].body == model::no_body;
   for (std::size_t i = 0; i < corrected_.size(); ++i) {
     const model::Contact& contact = corrected_[i];
-    for (int k = 0; k < 3; ++k) {
-      found_[i].pos[k] = real(contact.position[k]);
-      found_[i].normal[k] = real(swapped ? -contact.normal[k] : contact.normal[k]);
-    }
-    found_[i].depth = real(contact.depth);
+    put(contact.position, swapped ? model::Vec3(-contact.normal) : contact.normal, contact.depth, found_[i]);
   }
   return static_cast<int>(corrected_.size());
 }
