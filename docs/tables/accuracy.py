@@ -11,8 +11,8 @@ ONLY_SETTINGS = ("--own-iterations", "0", "--rest-seconds", "0")
 # Step of the scene over the step, substeps x iterations.
 LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 1, 1, 1), ("sor", 1, 4, 1), ("sor", 1, 14, 1), ("sor", 2, 5, 1),
          ("sor", 2, 7, 1), ("sor", 4, 3, 1), ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
-FINE = "10cm"
-HELD = {"sor": ("sor", 1, 14, 1), f"sor approach={FINE}": ("sor", 1, 14, 1),
+APPROACHES = ("0", "2cm")  # beside the default, 10 cm
+HELD = {"sor": ("sor", 1, 14, 1), **{f"sor approach={length}": ("sor", 1, 14, 1) for length in APPROACHES},
         **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1) for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
 
 
@@ -103,27 +103,30 @@ def held():
         verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
     of_setting = [verdicts[settings == name] for name in dict.fromkeys(settings)]
     counts = [[np.count_nonzero(verdicts == verdict) for verdict in stability.VERDICTS] for verdicts in of_setting]
-    names = [setting_name(line) + (f", `--approach {FINE}`" if "approach" in setting else "") for setting, line in HELD.items()]
+    approach = {setting: f", `--approach {setting.split('=')[1]}`" for setting in HELD if "approach" in setting}
+    names = [setting_name(line) + approach.get(setting, "") for setting, line in HELD.items()]
     return programs.table(["hard cases", *stability.VERDICTS], [[name, *count] for name, count in zip(names, counts)])
 
 
 def fine():
-    """What it buys and costs where islands in which bodies approach each other far take the step in pieces."""
+    """What it buys and costs that islands in which bodies approach each other far take the step in pieces."""
+    lengths_m = {"0": 0, "10cm": 0.1, "2cm": 0.02}
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "sor", "--law", "soft", "--precision", "double", "--substeps", "14",
-                                           "--dt", "0.01", "--approach", "0", FINE, "--estimates", "0", "--repeats", "3", "--rest-seconds", "0")
-    found = {(case["scene"], case["approach"] > 0): case for case in cases if case["kind"] == "setting"}
+                                           "--dt", "0.01", "--approach", *lengths_m, "--estimates", "0", "--repeats", "3", "--rest-seconds", "0")
+    found = {(case["scene"], case["approach"]): case for case in cases if case["kind"] == "setting"}
 
-    def errors(scene, is_fine):
-        return ", ".join(programs.millimetres(found[scene, is_fine][f"defect_body_position_{which}"]) for which in ("rms", "p90", "median"))
+    def errors(scene, length):
+        return ", ".join(programs.millimetres(found[scene, lengths_m[length]][f"defect_body_position_{which}"]) for which in ("rms", "p90", "median"))
 
-    def times(scene):
-        return f"{found[scene, True]['frame_time_median'] / found[scene, False]['frame_time_median']:.2f}"
+    def times(scene, length):
+        return f"{found[scene, lengths_m[length]]['frame_time_median'] / found[scene, lengths_m['10cm']]['frame_time_median']:.2f}"
 
     return programs.table(["rms, 90th percentile, median [mm]", *programs.SCENES],
-                          [["default", *(errors(scene, False) for scene in programs.SCENES)],
-                           [f"`--approach {FINE}`", *(errors(scene, True) for scene in programs.SCENES)],
-                           ["its time over the default's", *(times(scene) for scene in programs.SCENES)]])
+                          [[name, *(errors(scene, length) for scene in programs.SCENES)]
+                           for name, length in (("default", "10cm"), *((f"`--approach {length}`", length) for length in APPROACHES))] +
+                          [[f"time of `--approach {length}` over the default's", *(times(scene, length) for scene in programs.SCENES)]
+                           for length in APPROACHES])
 
 
 def estimates():

@@ -32,10 +32,10 @@ def verdicts_at_equal_time(name):
     return f"{' / '.join(counts)}, of {sum(map(int, counts))}"
 
 
-def fine():
-    """[(time over the default's, error rms [mm])] of --approach in each scene."""
+def approach(length):
+    """[(time over the default's, error rms [mm])] of --approach `length` in each scene."""
     rows = {row["rms, 90th percentile, median [mm]"]: row for row in kept.rows("docs/accuracy.md", "fine")}
-    return [(rows["its time over the default's"][scene], rows["--approach 10cm"][scene].split(",")[0]) for scene in SCENES]
+    return [(rows[f"time of --approach {length} over the default's"][scene], rows[f"--approach {length}"][scene].split(",")[0]) for scene in SCENES]
 
 
 def single():
@@ -55,7 +55,7 @@ def table():
     lines = (("the default", of_front("sor, 10 ms, 14 x 1"), verdicts_of_held("sor, 10 ms, 14 x 1")),
              ("`--precision single`", single(), verdicts_of_map("sor single, 14 x 1")),
              ("`--substeps 4`", of_front("sor, 10 ms, 4 x 1"), verdicts_at_equal_time("sor double, 4 x 1")),
-             ("`--approach 10cm`", fine(), verdicts_of_held("sor, 10 ms, 14 x 1, --approach 10cm")),
+             *((f"`--approach {length}`", approach(length), verdicts_of_held(f"sor, 10 ms, 14 x 1, --approach {length}")) for length in ("0", "2cm")),
              ("`--dt 0.0025 --substeps 4`", of_front("sor, 2.5 ms, 4 x 1"), verdicts_of_held("sor, 2.5 ms, 4 x 1")),
              ("`--stepper quick`", of_front("quick, 10 ms, 1 x 20"), verdicts_of_map("quick, 1 x 20")))
     columns = [f"{scene}: {what}" for scene in SCENES for what in ("time over the default's", "error rms [mm]")]

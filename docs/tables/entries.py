@@ -23,7 +23,7 @@ ENTRIES = {
                    ["pbstudy accuracy --stepper quick sor --law soft --precision double --iterations 5 20 80 --repeats 3"]),
     "held": Entry("docs/accuracy.md", accuracy.held, False, ["pbstudy stability --setting SETTING..."]),
     "fine": Entry("docs/accuracy.md", accuracy.fine, True,
-                  [f"pbstudy accuracy --stepper sor --law soft --precision double --substeps 14 --dt 0.01 --approach 0 {accuracy.FINE}"]),
+                  ["pbstudy accuracy --stepper sor --law soft --precision double --substeps 14 --dt 0.01 --approach 0 10cm 2cm"]),
     "estimates": Entry(f"{kept.LONG}estimates.md", accuracy.estimates, False,
                        ["pbstudy accuracy --scene CrashSk CrashWa Fight --precision double --iterations 20 --substeps 1 14 --dt 0.01"]),
     "substeps": Entry(f"{kept.LONG}substeps.md", accuracy.substeps, False, ["bench_worlds --substeps 100CrSk 0 8",

@@ -74,7 +74,7 @@ constexpr std::array<StepOption, 11> options = {{
      .placeholder = "LENGTH",
      .meaning =
          "sor: islands in which bodies come nearer to each other by more than this in a step take it in up "
-         "to eight pieces, with collision detection in each, e.g. 10cm; 0: none does; default: 0",
+         "to eight pieces, with collision detection in each, e.g. 5cm; 0: none does; default: 10cm",
      .needs = &Traits::has_substeps,
      .measure = &core::length_with_unit,
      .in_short = "approach * m",

@@ -112,7 +112,7 @@ struct StepperSettings {
   double tolerance_m = 0;  ///< sor: islands that move less get fewer substeps; 0: all get all of them
   /// sor with a memory: islands in which bodies approach each other by more than this in a step take it in
   /// pieces with contacts of their own [m]; 0: none does
-  double approach_m = 0;
+  double approach_m = 0.1;
   SorLaw law = {};  ///< sor; the others have ode_law()
   Precision precision = Precision::double_;
   Simd simd = Simd::automatic;

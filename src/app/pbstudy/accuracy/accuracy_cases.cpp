@@ -161,7 +161,6 @@ StepperSettings own_settings(const StepperSettings& setting, int iterations) {
   if (traits.iterates) own.iterations = std::max(1, iterations / setting.substeps);
   own.precision = StepperSettings{}.precision;
   own.tolerance_m = StepperSettings{}.tolerance_m;
-  own.approach_m = StepperSettings{}.approach_m;
   if (own.law.relax > 0) own.law.relax = own.iterations;
   return own;
 }
