@@ -37,9 +37,10 @@ fs::path in_package(const std::string& name, const fs::path& folder) {
   return {};
 }
 
-/// The text of the mesh at `path` that `model` calls `name`. What is wrong with it matters only if it is
-/// used: a model may have meshes that are only drawn.
-std::string read_mesh_of(const std::string& path, const std::string& model, const std::string& name) {
+/// The text of the mesh at `path` that `model` calls `name`, of its hull or of all triangles. What is wrong
+/// with it matters only if it is used: a model may have meshes that are only drawn.
+std::string read_mesh_of(const std::string& path, const std::string& model, const std::string& name,
+                         bool as_surface = false) {
   try {
     const auto package = name.find("package://");
     const fs::path inside = package == std::string::npos
@@ -48,7 +49,8 @@ std::string read_mesh_of(const std::string& path, const std::string& model, cons
     core::require_input(!inside.empty(), core::in_quotes(name) + " is in no folder around " + model +
                                              "; give that of its package in ROS_PACKAGE_PATH");
     const std::string bytes = core::read_input_file(inside.string(), model + " names it: give an STL or OBJ");
-    return mesh_text(read_mesh(bytes, inside.string()), inside.string());
+    const Mesh mesh = read_mesh(bytes, inside.string());
+    return as_surface ? surface_text(mesh) : mesh_text(mesh, inside.string());
   } catch (const core::InputError& error) {
     return text_of_unreadable(error.what());
   }
@@ -74,12 +76,13 @@ SceneSource read_file(const std::string& path) {
   SceneSource source{at.stem().string(), path,
                      core::read_input_file(path, "give the path of a scene file (TOML, MJCF or URDF)")};
   if (xml::is_xml(source.text)) return read_model_scene(std::move(source));
+  const std::set<std::string> surfaces = surface_files(source);
   for (auto missing = missing_files(source); !missing.empty(); missing = missing_files(source)) {
     for (const std::string& file : missing) {
       const std::string found = (at.parent_path() / file).string();
       source.text = with_file(
           source.text, file,
-          is_mesh_file(file) ? read_mesh_of(found, path, file)
+          is_mesh_file(file) ? read_mesh_of(found, path, file, surfaces.contains(file))
                              : core::read_input_file(
                                    found, path + " names it: give the path of a model file (MJCF or URDF)"));
     }

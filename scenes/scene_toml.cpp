@@ -230,6 +230,19 @@ std::vector<std::string> missing_files(const SceneSource& source) {
   return missing;
 }
 
+std::set<std::string> surface_files(const SceneSource& source) {
+  std::set<std::string> files;
+  const toml::table scene = parse_text(source);
+  const toml::array* actors = scene["actor"].as_array();
+  if (actors == nullptr) return files;
+  for (const toml::node& node : *actors) {
+    const toml::table* actor = node.as_table();
+    if (actor == nullptr || (*actor)["type"].value<std::string>() != "mesh") continue;
+    if (const auto file = (*actor)["file"].value<std::string>()) files.insert(*file);
+  }
+  return files;
+}
+
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text) {
   return text + "\n[files." + toml_string(file) + "]\ntext = " + toml_string(file_text) + "\n";
 }

@@ -1,6 +1,9 @@
 /// Turns a scene's text, with its bases and overrides, into one TOML table.
 #pragma once
 
+#include <set>
+#include <string>
+
 #include <toml++/toml.h>
 
 #include "scenes/scene.h"
@@ -37,6 +40,9 @@ std::string toml_string(std::string_view text);
 /// The model files that a scene's actors name, and those that these include, whose texts the scene does not
 /// have. None for a scene that is a model itself.
 std::vector<std::string> missing_files(const SceneSource& source);
+
+/// The files of which a scene's actors need all triangles.
+std::set<std::string> surface_files(const SceneSource& source);
 
 /// `text` with the text of a file appended, in the form that missing_files() looks for.
 std::string with_file(const std::string& text, const std::string& file, const std::string& file_text);

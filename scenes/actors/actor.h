@@ -56,6 +56,8 @@ const ActorType& read_actor_type(TableReader& actor);
 model::Material read_material(TableReader& actor, const model::Material& fallback);
 
 ActorPlan read_ground(TableReader& actor, const SceneContext& context);
+ActorPlan read_mesh_actor(TableReader& actor, const SceneContext& context);
+ActorPlan read_height_field_actor(TableReader& actor, const SceneContext& context);
 ActorPlan read_ramp(TableReader& actor, const SceneContext& context);
 ActorPlan read_car(TableReader& actor, const SceneContext& context);
 ActorPlan read_centipede(TableReader& actor, const SceneContext& context);

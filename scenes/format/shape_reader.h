@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/triangle_mesh.h"
 #include "model/model.h"
 #include "scenes/format/table_reader.h"
 #include "scenes/parts/mass_properties.h"
@@ -30,5 +31,12 @@ struct MeshSource {
 
 /// Reads the keys of a solid shape: for a hull `points` or `file`, `scale` and `vertices`, else its sizes.
 Solid read_solid_shape(TableReader& table, model::Shape shape, const MeshSource& meshes);
+
+/// Reads the keys of a mesh: `points` and `triangles`, or `file`; `scale`. Its centre is in the actor's
+/// frame.
+geometry::PlacedMesh read_mesh_shape(TableReader& table, const MeshSource& meshes);
+
+/// Reads the keys of a height field, `heights` and `size`, whose middle is the origin.
+geometry::PlacedMesh read_height_field(TableReader& table);
 
 }  // namespace pbmpi::scenes

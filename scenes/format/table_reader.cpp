@@ -197,6 +197,19 @@ std::vector<core::Vec3> TableReader::vectors(std::string_view key, Sign sign) {
   return result;
 }
 
+std::vector<std::vector<double>> TableReader::rows(std::string_view key) {
+  std::vector<std::vector<double>> result;
+  for (const toml::node& node : need_array(key, "[[a, b], [c, d]]")) {
+    const toml::array* entry = node.as_array();
+    if (!entry || entry->empty() || (!result.empty() && entry->size() != result.front().size()))
+      fail_at(node, "each row of " + core::in_quotes(key) + " must have as many numbers as the first");
+    std::vector<double>& row = result.emplace_back();
+    for (const toml::node& number : *entry) row.push_back(checked_number(key, number, Sign::any));
+  }
+  if (result.empty()) fail(key, core::in_quotes(key) + " is empty; give rows of numbers");
+  return result;
+}
+
 std::array<double, 2> TableReader::pair(std::string_view key) {
   const toml::array& array = need_array(key, "[a, b]");
   if (array.size() != 2) fail_at(array, core::in_quotes(key) + " must have two numbers [a, b]");

@@ -49,6 +49,8 @@ class TableReader {
   std::vector<int> integers(std::string_view key, int least);
   /// Reads [[x, y, z], ...], not empty.
   std::vector<core::Vec3> vectors(std::string_view key, Sign sign);
+  /// Reads [[a, b, ...], [c, d, ...], ...], rows of equal length, not empty.
+  std::vector<std::vector<double>> rows(std::string_view key);
   /// Reads [a, b].
   std::array<double, 2> pair(std::string_view key);
   /// Reads [[a, b], [c, d], ...] with a < c < ...; empty without the key.

@@ -230,7 +230,8 @@ class Assembly::Builder {
                               geoms[i].size,
                               compose(frame, geoms[i].pose),
                               {geoms[i].mu, 0},
-                              geoms[i].hull});
+                              geoms[i].hull,
+                              geoms[i].mesh});
     }
   }
 

@@ -53,7 +53,8 @@ struct LinkGeom {
   double mu = 1;
   unsigned contype = 1, conaffinity = 1;  ///< two geoms may touch if one's type meets the other's affinity
   std::string where;
-  std::shared_ptr<const model::Hull> hull = nullptr;  ///< with Shape::hull
+  std::shared_ptr<const model::Hull> hull = nullptr;  ///< as in model::Geom
+  std::shared_ptr<const geometry::TriangleMesh> mesh = nullptr;
 };
 
 struct Link {

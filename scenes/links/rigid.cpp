@@ -15,8 +15,10 @@ using model::Mat3;
 void take_over(const Link& link, int index, const Pose& pose, Rigid& rigid) {
   if (link.mass) rigid.mass = together(rigid.mass, moved(*link.mass, pose));
   for (LinkGeom geom : link.geoms) {
-    core::require_input(geom.shape != model::Shape::plane || rigid.joints.empty(),
-                        geom.where + ": a plane cannot move; put it into the world, or take a box");
+    const bool stands_fast = geom.shape == model::Shape::plane || geom.shape == model::Shape::mesh;
+    core::require_input(
+        !stands_fast || rigid.joints.empty(),
+        geom.where + ": a plane or a height field cannot move; put it into the world, or take a box");
     geom.pose = compose(pose, geom.pose);
     geom.link = index;
     rigid.geoms.push_back(std::move(geom));

@@ -66,8 +66,20 @@ std::string mesh_text(const Mesh& mesh, const std::string& file) {
   return text;
 }
 
+std::string surface_text(const Mesh& mesh) {
+  std::string text = "# " + std::to_string(mesh.triangles.size()) + " triangles\n";
+  for (const core::Vec3& at : mesh.points) text += "v " + numbers({at.x(), at.y(), at.z()}) + "\n";
+  for (const auto& [a, b, c] : mesh.triangles)
+    text += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(c + 1) + "\n";
+  return text;
+}
+
+Mesh read_surface_text(const std::string& text, const std::string& file) {
+  return read_mesh(text, file + (is_mesh_file(file) && file.back() != 'l' ? "" : ".obj"));
+}
+
 MeshPoints read_mesh_text(const std::string& text, const std::string& file) {
-  const Mesh mesh = read_mesh(text, file + (is_mesh_file(file) && file.back() != 'l' ? "" : ".obj"));
+  const Mesh mesh = read_surface_text(text, file);
   MeshPoints read{mesh.points, enclosed_by(mesh), 0};
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) {

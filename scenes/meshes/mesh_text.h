@@ -1,4 +1,5 @@
-/// What a scene keeps of a mesh: the points of its convex hull and its mass properties, as text.
+/// What a scene keeps of a mesh, as text: the points of its convex hull and its mass properties, or its
+/// triangles.
 #pragma once
 
 #include <optional>
@@ -27,7 +28,11 @@ struct MeshPoints {
 /// and files of a run can carry it. Throws core::InputError for a mesh in one plane.
 std::string mesh_text(const Mesh& mesh, const std::string& file);
 
-/// Reads such a text, or that of an OBJ.
+/// An OBJ of the triangles themselves, for what needs the whole surface.
+std::string surface_text(const Mesh& mesh);
+
+/// Reads a text of either, or that of an OBJ.
+Mesh read_surface_text(const std::string& text, const std::string& file);
 MeshPoints read_mesh_text(const std::string& text, const std::string& file);
 
 }  // namespace pbmpi::scenes

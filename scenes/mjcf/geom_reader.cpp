@@ -1,10 +1,12 @@
 #include "scenes/mjcf/geom_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <Eigen/Eigenvalues>
 
+#include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "model/names.h"
@@ -92,7 +94,8 @@ bool counts(Attributes& geom, const Compiler& compiler) {
 /// Three half axes.
 MassProperties mass_of_ellipsoid(Attributes& geom, const Compiler& compiler) {
   const std::vector<double> half = geom.numbers("size", 3, 3);
-  if (half.empty()) geom.fail("it has no 'size'; give three half axes [m]");
+  if (half.empty() || !(*std::ranges::min_element(half) > 0))
+    geom.fail("'size' needs three half axes above 0 [m]");
   const Vec3 squares(half[0] * half[0], half[1] * half[1], half[2] * half[2]);
   const double size = 4 * std::numbers::pi / 3 * std::abs(half[0] * half[1] * half[2]);
   const double density = geom.number("density", Range::non_negative, water);
@@ -142,24 +145,69 @@ ReadGeom read_drawing(Attributes& geom, const std::string& type, const Context& 
   return read;
 }
 
-/// A mesh that touches something does so as its hull.
+/// A mesh or an ellipsoid that touches something does so as its hull, a height field as a mesh of triangles.
 std::optional<Shape> shape_of(const std::string& type, bool touches) {
   if (type == "mesh") return touches ? std::optional(Shape::hull) : std::nullopt;
+  if (type == "hfield") return touches ? std::optional(Shape::mesh) : std::nullopt;
+  if (type == "ellipsoid") return touches ? std::optional(Shape::hull) : std::nullopt;
   if (type == model::name_of(Shape::hull)) return std::nullopt;
   return model::enum_from_name<Shape>(type, model::shape_names);
 }
 
-ReadGeom read_mesh_geom(Attributes& attributes, links::LinkGeom geom, const Context& context) {
-  const ModelMesh& mesh = context.meshes->of(attributes);
+/// A surface without a mass.
+ReadGeom read_field_geom(Attributes& attributes, links::LinkGeom geom, const Context& context) {
+  const geometry::PlacedMesh& field = context.meshes->height_field_of(attributes);
+  model::Geom shaped;
+  geometry::put_mesh(field.mesh, shaped);
+  geom.size = shaped.size;
+  geom.hull = shaped.hull;
+  geom.mesh = shaped.mesh;
+  geom.pose.position = geom.pose.point_to_outer(field.centre);
+  attributes.allow({"size", "fromto", "mass", "density"});
+  attributes.finish();
+  return {geom, std::nullopt, {}};
+}
+
+/// The hull of 128 points of it, spread evenly on a spiral (R. Swinbank and R. J. Purser, "Fibonacci grids",
+/// Q. J. R. Meteorol. Soc. 132, 2006).
+geometry::FoundHull hull_of_ellipsoid(const Vec3& half, const std::string& where) {
+  constexpr int count = 128;
+  std::vector<Vec3> points;
+  for (int i = 0; i < count; ++i) {
+    const double z = (2 * i + 1.0) / count - 1, radius = std::sqrt(1 - z * z);
+    const double turn = i / std::numbers::phi;
+    const double angle = 2 * std::numbers::pi * (turn - std::floor(turn));
+    points.push_back(half.cwiseProduct(Vec3(radius * core::cosine(angle), radius * core::sine(angle), z)));
+  }
+  return geometry::convex_hull(points, count, where);
+}
+
+ReadGeom read_hull_geom(Attributes& attributes, const std::string& type, links::LinkGeom geom,
+                        const Context& context) {
   ReadGeom read;
-  const MassProperties mass = mass_of_mesh(attributes, mesh, geom.pose);
+  MassProperties mass;
+  geometry::FoundHull found;
+  if (type == "ellipsoid") {
+    if (attributes.has("mesh") || attributes.has("fromto"))
+      attributes.fail_unless_left_out(attributes.has("mesh") ? "mesh" : "fromto",
+                                      "an ellipsoid has three half axes here; give its 'size'", type);
+    mass = mass_of_ellipsoid(attributes, context.compiler);
+    const std::vector<double> half = attributes.numbers("size", 3, 3);
+    found = hull_of_ellipsoid({half[0], half[1], half[2]}, attributes.where());
+    context.leave_out.notes().add(attributes.where(),
+                                  "an ellipsoid touches others as the hull of 128 of its points");
+  } else {
+    const ModelMesh& mesh = context.meshes->of(attributes);
+    mass = mass_of_mesh(attributes, mesh, geom.pose);
+    found = mesh.found;
+  }
   if (counts(attributes, context.compiler) && mass.mass_kg > 0) read.mass = mass;
-  const Solid solid = solid_of(mesh.found, geom.pose);
+  const Solid solid = solid_of(found, geom.pose);
   geom.size = solid.size;
   geom.pose = solid.pose;
   geom.hull = solid.hull;
   read.geom = std::move(geom);
-  attributes.allow({"size", "fromto"});
+  if (type == "mesh") attributes.allow({"size", "fromto"});
   attributes.finish();
   return read;
 }
@@ -197,7 +245,8 @@ ReadGeom read_geom(Attributes attributes, const Context& context) {
   geom.mu = read_friction(attributes, leave_out.notes());
   note_contact_numbers(attributes, leave_out.notes());
   geom.pose = read_pose(attributes, compiler);
-  if (*shape == Shape::hull) return read_mesh_geom(attributes, std::move(geom), context);
+  if (*shape == Shape::hull) return read_hull_geom(attributes, type, std::move(geom), context);
+  if (*shape == Shape::mesh) return read_field_geom(attributes, std::move(geom), context);
   const auto segment =
       *shape == Shape::sphere || *shape == Shape::plane ? std::nullopt : read_segment(attributes);
   if (segment) geom.pose = segment->pose;

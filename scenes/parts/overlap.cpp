@@ -108,7 +108,8 @@ class Search {
   Search(const model::Model& model, std::optional<double> tolerance_m)
       : model_(&model), tolerance_m_(tolerance_m), joined_(joined_actors(model)) {
     for (const model::Geom& geom : model.geoms) {
-      if (geom.shape != Shape::plane) boxes_.push_back(inner_box(geom, model));
+      const bool is_solid = geom.shape != Shape::plane && geom.shape != Shape::mesh;
+      if (is_solid) boxes_.push_back(inner_box(geom, model));
     }
     std::sort(boxes_.begin(), boxes_.end(),
               [](const InnerBox& a, const InnerBox& b) { return a.hull.min[0] < b.hull.min[0]; });

@@ -5,6 +5,7 @@
 
 #include "geometry/box.h"
 #include "geometry/geometry.h"
+#include "geometry/triangle_mesh.h"
 
 namespace pbmpi::effects {
 namespace {
@@ -28,12 +29,28 @@ core::Vec3 from_core(const model::Geom& geom, const model::BodyPose& pose, const
   return outside;
 }
 
+double approach_to_mesh(const model::Geom& geom, const model::BodyPose& pose, const core::Vec3& way,
+                        const geometry::TriangleMesh& mesh, const model::BodyPose& mesh_pose) {
+  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const core::Mat3 to_mesh = Eigen::Map<const RowMajor>(mesh_pose.rotation).transpose();
+  const core::Vec3 centre = to_mesh * (core::Vec3(pose.position) - core::Vec3(mesh_pose.position));
+  const core::Vec3 way_in_mesh = to_mesh * way;
+  double most = 0;
+  mesh.tree.for_each_near(geometry::swept_box(centre, geometry::bounding_radius(geom), way_in_mesh),
+                          [&](int triangle) {
+                            const auto& face = mesh.surface.faces[static_cast<std::size_t>(triangle)];
+                            most = std::max(most, -face.normal.dot(way_in_mesh));
+                          });
+  return most;
+}
+
 }  // namespace
 
-double approach_to_static(const core::Vec3& centre, const core::Vec3& way, const model::Geom& other,
-                          const model::BodyPose& other_pose) {
+double approach_to_static(const model::Geom& geom, const model::BodyPose& pose, const core::Vec3& way,
+                          const model::Geom& other, const model::BodyPose& other_pose) {
+  if (other.shape == model::Shape::mesh) return approach_to_mesh(geom, pose, way, *other.mesh, other_pose);
   if (other.shape == model::Shape::plane) return std::max(0.0, -axis_of(other_pose, 2).dot(way));
-  const core::Vec3 apart = from_core(other, other_pose, centre);
+  const core::Vec3 apart = from_core(other, other_pose, core::Vec3(pose.position));
   const double distance = apart.norm();
   return distance > 0 ? std::max(0.0, -apart.dot(way) / distance) : way.norm();
 }

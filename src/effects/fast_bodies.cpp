@@ -220,9 +220,8 @@ void FastBodies::approach(const model::State& state, const Moving& from, int oth
   const bool is_static = met.body == model::no_body;
   const core::Vec3 way = other_moves ? core::Vec3(from.way - too->way) : from.way;
   const double room = other_moves || is_static ? 0 : most_approach_m_;
-  const double by = is_static
-                        ? approach_to_static(core::Vec3(from.pose.position), way, met, met_pose(state, other))
-                        : way.norm();
+  const double by =
+      is_static ? approach_to_static(geom, from.pose, way, met, met_pose(state, other)) : way.norm();
   if (!(by > most_approach_m_) || !rule_.may_touch(from.geom, other)) return;
   if (!may_meet(geom, from.pose, way, met, met_pose(state, other), room)) return;
   model::Contact contact;

@@ -109,6 +109,7 @@ double half_extent(const model::Geom& geom, const double rotation[9], const core
 
 double least_half_extent(const model::Geom& geom) {
   if (geom.shape == model::Shape::plane) return model::infinity;
+  if (geom.shape == model::Shape::mesh) return 0;
   if (geom.shape == model::Shape::hull) {
     const auto lowest = std::ranges::min_element(geom.hull->faces, {}, &model::Hull::Face::height);
     return lowest->height;

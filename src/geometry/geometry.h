@@ -21,7 +21,7 @@ model::BodyPose static_pose();
 model::BodyPose geom_pose(const model::Geom& geom, const model::BodyPose& body);
 
 /// What a solid geom consists of: the points within a radius of a box about its centre, in its own frame [m].
-/// A hull only lies within its box.
+/// A hull and a mesh only lie within their boxes.
 struct Extent {
   std::array<double, 3> half{};  ///< half sides of the box; a side may be 0
   double ball = 0;               ///< sphere, capsule: the radius in all directions
@@ -38,7 +38,7 @@ std::array<double, 3> half_extents(const model::Geom& geom, const double rotatio
 /// Infinite for a plane.
 double half_extent(const model::Geom& geom, const double rotation[9], const core::Vec3& direction);
 
-/// The least of a geom's reaches from its centre [m] over all directions; infinite for a plane.
+/// The least of a geom's reaches from its centre [m] over all directions; infinite for a plane, 0 for a mesh.
 double least_half_extent(const model::Geom& geom);
 
 /// Is the geom a sphere about its body's centre of mass? It needs no orientation, and a normal force does not

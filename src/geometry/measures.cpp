@@ -1,8 +1,10 @@
 #include "geometry/measures.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "core/error.h"
+#include "geometry/geometry.h"
 
 namespace pbmpi::geometry {
 namespace {
@@ -41,6 +43,7 @@ double volume(Shape shape, const std::array<double, 3>& size) {
       return pi * radius * radius * size[1];
     case Shape::plane:
     case Shape::hull:
+    case Shape::mesh:
       break;
   }
   core::require_invariant(false, "volume() of a shape with sizes");
@@ -66,6 +69,7 @@ model::Mat3 solid_inertia(Shape shape, const std::array<double, 3>& size, double
     }
     case Shape::plane:
     case Shape::hull:
+    case Shape::mesh:
       break;
   }
   core::require_invariant(false, "solid_inertia() of a shape with sizes");
@@ -87,9 +91,20 @@ double drag_area(const model::Geom& geom) {
     case Shape::hull:
       return cd_box * geom.hull->surface / 4;
     case Shape::plane:
+    case Shape::mesh:
       break;
   }
   return 0;
+}
+
+std::vector<double> sizes_of(const model::Model& model) {
+  std::vector<double> sizes(model.bodies.size(), 0);
+  for (const model::Geom& geom : model.geoms) {
+    if (geom.body == model::no_body || geom.shape == Shape::plane) continue;
+    const double radius = geom.local.position.norm() + bounding_radius(geom);
+    sizes[geom.body] = std::max(sizes[geom.body], 2 * radius);
+  }
+  return sizes;
 }
 
 }  // namespace pbmpi::geometry

@@ -1,17 +1,18 @@
-/// What follows from the shape and the sizes of a solid alone.
+/// What follows from the shapes and the sizes of solids alone.
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "model/model.h"
 
 namespace pbmpi::geometry {
 
-/// Volume [m^3] of a solid shape; `size` as in model::Geom. Not for planes and hulls.
+/// Volume [m^3] of a solid shape; `size` as in model::Geom. Not for planes, hulls and meshes.
 double volume(model::Shape shape, const std::array<double, 3>& size);
 
 /// Inertia [kg m^2] about the centre of mass, in the shape's own axes (capsule and cylinder lie along z). Not
-/// for planes and hulls.
+/// for planes, hulls and meshes.
 model::Mat3 solid_inertia(model::Shape shape, const std::array<double, 3>& size, double mass_kg);
 
 /// Cd A [m^2] of a geom, as if it were its body's only geom and nothing stood near.
@@ -22,5 +23,9 @@ model::Mat3 solid_inertia(model::Shape shape, const std::array<double, 3>& size,
 /// Aeronautical Engineer's Data Book (2002), chapter 5. A capsule is taken as round as a sphere, a
 /// hull as angular as a cube.
 double drag_area(const model::Geom& geom);
+
+/// [num_bodies] Diameter of the ball about its centre of mass that holds a body's geoms [m]; 0 for a body
+/// without geoms.
+std::vector<double> sizes_of(const model::Model& model);
 
 }  // namespace pbmpi::geometry

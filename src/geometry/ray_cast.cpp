@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/triangle_mesh.h"
+
 namespace pbmpi::geometry {
 namespace {
 
@@ -54,6 +56,13 @@ Inside hull(const core::Vec3& from, const core::Vec3& way, const model::Hull& hu
   return all;
 }
 
+/// A path comes through the front of a triangle, and is inside from there on.
+Inside mesh(const core::Vec3& from, const core::Vec3& way, const TriangleMesh& mesh) {
+  const auto hit = mesh.first_hit(from, way);
+  if (!hit) return nowhere();
+  return {hit->share, model::infinity, mesh.surface.faces[static_cast<std::size_t>(hit->triangle)].normal};
+}
+
 core::Vec3 without_z(const core::Vec3& v) { return {v.x(), v.y(), 0}; }
 
 /// A capsule is the union of a cylinder and two balls, and convex: the line enters it where it first enters
@@ -90,6 +99,8 @@ Inside inside(const model::Geom& geom, const core::Vec3& from, const core::Vec3&
       return capsule(from, way, geom.size[0], geom.size[1] / 2);
     case model::Shape::hull:
       return hull(from, way, *geom.hull);
+    case model::Shape::mesh:
+      return mesh(from, way, *geom.mesh);
   }
   return nowhere();
 }

@@ -110,7 +110,7 @@ void Seams::add_parts() {
     const model::Geom& geom = model_->geoms[static_cast<std::size_t>(i)];
     const int cluster =
         geom.body == model::no_body ? static_cluster : cluster_of[static_cast<std::size_t>(geom.body)];
-    if (cluster < 0 || geom.shape == model::Shape::hull) continue;
+    if (cluster < 0 || geom.shape == model::Shape::hull || geom.shape == model::Shape::mesh) continue;
     Part& part = parts_[static_cast<std::size_t>(i)];
     part.solid = solid_at(geom, geom_pose(geom, static_pose()));
     part.tolerance_m = tolerance_of(geom);
@@ -262,8 +262,11 @@ void Seams::correct(const Side& own, const Side& other, std::size_t first, doubl
   const auto geom_of = [&](const Side& side) -> const model::Geom& {
     return model_->geoms[static_cast<std::size_t>(side.geom)];
   };
-  // A plane has the same normal everywhere: no edge of the other geom can turn it.
-  if (first == contacts.size() || !touches(own.geom) || geom_of(other).shape == model::Shape::plane) return;
+  // A plane has the same normal everywhere, and a mesh has corrected its own: no edge of the other geom can
+  // turn them.
+  const model::Shape shape = geom_of(other).shape;
+  const bool keeps_normals = shape == model::Shape::plane || shape == model::Shape::mesh;
+  if (first == contacts.size() || !touches(own.geom) || keeps_normals) return;
   const Frame frame(own.body);
   Solid solid = solid_at(geom_of(other), geom_pose(geom_of(other), other.body));
   solid.centre = frame.point_in(solid.centre);

@@ -25,7 +25,8 @@ namespace pbmpi::geometry {
 /// stands, the pair gets those of the face that lets the other geom out by the shortest way, of the faces
 /// that are not covered; none if there is no such face, or if the other geom does not reach it.
 ///
-/// A hull is never part of such a solid; its contacts with one are corrected as those of others.
+/// A hull or a mesh is never part of such a solid; a hull's contacts with one are corrected as those of
+/// others.
 ///
 /// Geoms count as touching, and faces as flush, up to 0.1 mm apart, or a thousandth of the thickness of the
 /// thinner geom if that is less. A face that is partly covered is not met by what reaches over its border by

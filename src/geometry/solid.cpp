@@ -142,6 +142,7 @@ std::optional<NormalCone> normals_at(const Solid& solid, const core::Vec3& point
       for (int k = 0; k < 3; ++k) within = within && look_along(solid, at, k, tolerance, cone);
       break;
     case Shape::hull:  // never part of a solid of several (Seams)
+    case Shape::mesh:
       within = false;
       break;
   }

@@ -13,6 +13,10 @@
 #include "core/vector.h"
 #include "model/effect_choices.h"
 
+namespace pbmpi::geometry {
+struct TriangleMesh;  // geometry/triangle_mesh.h
+}  // namespace pbmpi::geometry
+
 namespace pbmpi::model {
 
 using core::Mat3;
@@ -46,11 +50,12 @@ struct Body {
   Vec3 angular_velocity = Vec3::Zero();  ///< initial, world frame [rad/s]
 };
 
-enum class Shape { sphere, box, capsule, cylinder, plane, hull };
-inline constexpr int num_shapes = 6;
+/// A mesh is a surface of triangles, which bodies touch from its front; only the static environment has one.
+enum class Shape { sphere, box, capsule, cylinder, plane, hull, mesh };
+inline constexpr int num_shapes = 7;
 
 /// A convex polyhedron of uniform density, made by geometry/hulls/convex_hull.h; its origin is its centre of
-/// mass.
+/// mass. Also the faces of a mesh, which need be neither convex nor closed: that has no edges and no mass.
 struct Hull {
   /// A flat face: `count` vertices of `corners` from `first` on, counter-clockwise as seen from outside.
   struct Face {
@@ -90,13 +95,16 @@ struct Geom {
   int space = 0;       ///< index into Model::spaces
   Shape shape = Shape::box;
   /// [m] sphere: radius; box: three full sides; capsule and cylinder: radius, length along z (a capsule's
-  /// without its caps); plane: unused; hull: three full sides of the box about its origin that holds it.
+  /// without its caps); plane: unused; hull, mesh: three full sides of the box about its origin that holds
+  /// it.
   std::array<double, 3> size{};
   /// The pose in the body's frame, or in the world frame for a static geom. A plane passes through the
   /// position, and its normal is the local z axis.
   Pose local;
   Material material;
-  std::shared_ptr<const Hull> hull = nullptr;  ///< with Shape::hull; shared by geoms and worlds
+  std::shared_ptr<const Hull> hull =
+      nullptr;  ///< with Shape::hull and Shape::mesh; shared by geoms and worlds
+  std::shared_ptr<const geometry::TriangleMesh> mesh = nullptr;  ///< with Shape::mesh; `hull` is its surface
 };
 
 enum class JointKind { ball, hinge, slider, universal, fixed, hinge2 };

@@ -13,7 +13,8 @@ namespace pbmpi::model {
 inline constexpr int no_size = -1;
 
 /// A shape is a box, of which any side may be 0, widened by a radius: by a ball about each of its points
-/// (`is_round`), or by a disc across z. A plane has no such description, and a hull lies within its box.
+/// (`is_round`), or by a disc across z. A plane has no such description; a hull and a mesh
+/// lie within their boxes.
 struct ShapeTraits {
   Shape shape;
   std::string_view name;
@@ -42,6 +43,7 @@ inline constexpr std::array<ShapeTraits, num_shapes> shape_traits = {{
      .radius = 0},
     {.shape = Shape::plane, .name = "plane", .num_sizes = 0},
     {.shape = Shape::hull, .name = "hull", .num_sizes = 3, .length = {0, 1, 2}, .has_points = true},
+    {.shape = Shape::mesh, .name = "mesh", .num_sizes = 3, .length = {0, 1, 2}, .has_points = true},
 }};
 
 constexpr const ShapeTraits& traits_of(Shape shape) { return shape_traits[static_cast<std::size_t>(shape)]; }

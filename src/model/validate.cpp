@@ -86,6 +86,11 @@ void validate_geom(const Model& model, const Geom& geom, const std::string& who)
                   who + ": size " + std::to_string(geom.size[i]) + " m must be finite and above 0");
   }
   require_input(geom.shape != Shape::hull || geom.hull != nullptr, who + ": a hull without its points");
+  require_input(geom.shape != Shape::mesh || (geom.hull != nullptr && geom.mesh != nullptr),
+                who + ": a mesh without its triangles");
+  require_input(
+      geom.shape != Shape::mesh || geom.body == no_body,
+      who + ": a mesh of triangles encloses nothing and cannot belong to a body; give the body a hull");
   require_input(geom.shape != Shape::plane || geom.body == no_body,
                 who + ": a plane cannot belong to a body");
   require_material(geom.material, who);

@@ -72,6 +72,10 @@ std::vector<std::string> refusals(const model::Model& model) {
     refuse_parallel_axes(model, joint, sentences);
   }
   refuse_loops(model, sentences);
+  if (std::ranges::any_of(model.geoms,
+                          [](const model::Geom& geom) { return geom.shape == model::Shape::mesh; }))
+    sentences.push_back(
+        "a mesh of triangles or a height field is not there with MuJoCo, whose meshes are hulls");
   for (const model::Geom& geom : model.geoms) {
     if (geom.shape == model::Shape::plane && geom.body != model::no_body)
       sentences.push_back("body '" + model.bodies[geom.body].name +

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "geometry/body_size.h"
+#include "geometry/measures.h"
 #include "model/joint_gap.h"
 
 namespace pbmpi::stability {

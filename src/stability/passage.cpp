@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/body_size.h"
 #include "geometry/geometry.h"
+#include "geometry/measures.h"
 #include "geometry/ray_cast.h"
 
 namespace pbmpi::stability {

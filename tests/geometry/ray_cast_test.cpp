@@ -97,6 +97,7 @@ bool holds(const model::Geom& geom, const core::Vec3& p) {
     case model::Shape::plane:
       return p.z() <= 0;
     case model::Shape::hull:  // tests/geometry/hulls
+    case model::Shape::mesh:
       break;
   }
   return false;

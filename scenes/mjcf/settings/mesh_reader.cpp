@@ -1,10 +1,13 @@
 #include "scenes/mjcf/settings/mesh_reader.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
+#include <string_view>
 
 #include "core/error.h"
 #include "core/text.h"
+#include "scenes/meshes/height_field.h"
 
 namespace pbmpi::scenes::mjcf {
 namespace {
@@ -39,11 +42,11 @@ std::string name_in_texts(const std::string& given, const MeshFolder& folder, co
 }
 
 template <class Found>
-void for_each_mesh(const xml::Element& root, const Found& found) {
+void for_each_asset(const xml::Element& root, std::string_view kind, const Found& found) {
   for (const xml::Element& assets : root.children) {
     if (assets.name != "asset") continue;
     for (const xml::Element& one : assets.children) {
-      if (one.name == "mesh") found(one);
+      if (one.name == kind) found(one);
     }
   }
 }
@@ -65,7 +68,7 @@ std::vector<std::string> mesh_files(const std::string& file, const xml::Texts& t
   xml::expand_includes(root, file, texts, xml::LeaveOut({}, told_later));
   const MeshFolder folder = folder_in(root);
   std::set<std::string> files;
-  for_each_mesh(root, [&](const xml::Element& mesh) {
+  for_each_asset(root, "mesh", [&](const xml::Element& mesh) {
     const xml::Attribute* given = mesh.find("file");
     if (given != nullptr && is_mesh_file(given->value))
       files.insert(name_in_texts(given->value, folder, file));
@@ -80,25 +83,72 @@ Meshes::Meshes(const xml::Element& root, const std::string& file, const xml::Tex
   const MeshFolder folder = folder_in(root);
   folder_ = folder.folder;
   strips_path_ = folder.strips_path;
-  for_each_mesh(root, [&](const xml::Element& mesh) {
-    const xml::Attribute *name = mesh.find("name"), *given = mesh.find("file");
-    if (name != nullptr || given != nullptr)
-      elements_.emplace(name != nullptr ? name->value : fs::path(given->value).stem().string(), &mesh);
-  });
+  const auto index = [&](const char* kind, Elements& elements) {
+    for_each_asset(root, kind, [&](const xml::Element& asset) {
+      const xml::Attribute *name = asset.find("name"), *given = asset.find("file");
+      if (name != nullptr || given != nullptr)
+        elements.emplace(name != nullptr ? name->value : fs::path(given->value).stem().string(), &asset);
+    });
+  };
+  index("mesh", elements_);
+  index("hfield", field_elements_);
+}
+
+const xml::Element& Meshes::find(Attributes& geom, const char* kind, const Elements& elements) {
+  const std::string name = geom.text(kind);
+  const auto element = elements.find(name);
+  if (element == elements.end()) {
+    std::vector<std::string> names;
+    for (const auto& [one, is] : elements) names.push_back(one);
+    geom.fail(kind, "no <" + std::string(kind) + "> of <asset> is called " + core::in_quotes(name) +
+                        (names.empty() ? "; give one there" : core::suggestion(name, names)));
+  }
+  return *element->second;
 }
 
 const ModelMesh& Meshes::of(Attributes& geom) {
   const std::string name = geom.text("mesh");
   const auto known = read_.find(name);
   if (known != read_.end()) return known->second;
-  const auto element = elements_.find(name);
-  if (element == elements_.end()) {
-    std::vector<std::string> names;
-    for (const auto& [one, is] : elements_) names.push_back(one);
-    geom.fail("mesh", "no <mesh> of <asset> is called " + core::in_quotes(name) +
-                          (names.empty() ? "; give one there" : core::suggestion(name, names)));
+  return read(name, find(geom, "mesh", elements_));
+}
+
+/// The first row of `elevation` lies at +y. MuJoCo takes the lowest height as 0 and the highest as 1; without
+/// `elevation` all are 0.
+const geometry::PlacedMesh& Meshes::height_field_of(Attributes& geom) {
+  const xml::Element& element = find(geom, "hfield", field_elements_);
+  const std::string name = geom.text("hfield");
+  if (const auto known = fields_.find(name); known != fields_.end()) return known->second;
+  Attributes field(element, defaults_.of(element, ""));
+  if (field.has("file"))
+    field.fail_unless_left_out(
+        "file", "height fields are not read from files; give 'nrow', 'ncol', 'elevation'", "hfield");
+  const auto rows = static_cast<std::size_t>(field.integer("nrow", 2, 0)),
+             columns = static_cast<std::size_t>(field.integer("ncol", 2, 0));
+  const std::vector<double> size = field.numbers("size", 4, 4);
+  if (size.empty() || !(*std::ranges::min_element(size) > 0))
+    field.fail("'size' needs four numbers above 0: half the sides, the height, the depth of the base [m]");
+  constexpr std::size_t most = geometry::most_mesh_triangles;
+  if (rows < 2 || columns < 2) field.fail("a height field needs 'nrow' and 'ncol', each at least 2");
+  if (rows > most || columns > most || rows * columns > most)
+    field.fail("nrow", "a height field has at most " + std::to_string(most) + " points");
+  std::vector<double> given = field.numbers("elevation", 1, most);
+  if (given.empty()) given.assign(rows * columns, 0);
+  if (given.size() != rows * columns)
+    field.fail("elevation", "'elevation' needs nrow x ncol numbers, " + std::to_string(rows * columns));
+  field.allow({"name"});
+  field.finish();
+  const auto [low, high] = std::ranges::minmax(given);
+  std::vector<std::vector<double>> heights(rows);
+  for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double above = given[(rows - 1 - row) * columns + column] - low;
+      heights[row].push_back(size[2] * (high > low ? above / (high - low) : above));
+    }
   }
-  return read(name, *element->second);
+  const Mesh mesh = mesh_of_heights(heights, 2 * size[0], 2 * size[1]);
+  return fields_.emplace(name, geometry::triangle_mesh(mesh.points, mesh.triangles, element.where))
+      .first->second;
 }
 
 const ModelMesh& Meshes::read(const std::string& name, const xml::Element& element) {

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "core/error.h"
+
 namespace pbmpi::bullet {
 namespace {
 
@@ -29,6 +31,10 @@ std::unique_ptr<btCollisionShape> make_shape(const model::Geom& geom) {
       return std::make_unique<btStaticPlaneShape>(btVector3(0, 0, 1), 0);
     case model::Shape::hull:
       return make_hull(*geom.hull);
+    case model::Shape::mesh:
+      throw core::InputError(
+          "bullet: a mesh of triangles or a height field is not there with Bullet; use another stepper, or "
+          "change the scene");
   }
   throw std::logic_error("bullet: a geom without a shape");
 }

@@ -13,18 +13,16 @@ constexpr double lies_on_face = 0.99985;
 /// Sine of the angle up to which a cylinder lies on its side, or stands on an end.
 constexpr double lies = 0.02;
 
-/// Which of the points spread most: the deepest, the one farthest from it, and the farthest on either side of
-/// the line between these two, as for boxes (solver/collide/spread.h).
-void spread(const std::vector<ContactPoint>& points, const core::Vec3& normal, ContactPoints& found) {
+}  // namespace
+
+Chosen spread(std::span<const ContactPoint> points, std::size_t first, const core::Vec3& normal) {
+  Chosen chosen;
   if (points.size() <= ContactPoints::most) {
-    for (const ContactPoint& point : points) found.add(point.position, point.depth);
-    return;
+    for (std::size_t i = 0; i < points.size(); ++i) chosen.add(i);
+    return chosen;
   }
-  std::size_t deepest = 0, far = 0, left = 0, right = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    if (points[i].depth > points[deepest].depth) deepest = i;
-  }
-  const core::Vec3 origin = points[deepest].position;
+  std::size_t far = 0, left = 0, right = 0;
+  const core::Vec3 origin = points[first].position;
   const auto across = [&](std::size_t i) {
     const core::Vec3 from = points[i].position - origin;
     return core::Vec3(from - normal.dot(from) * normal);
@@ -49,14 +47,12 @@ void spread(const std::vector<ContactPoint>& points, const core::Vec3& normal, C
       right = i;
     }
   }
-  const auto add = [&](std::size_t i) { found.add(points[i].position, points[i].depth); };
-  add(deepest);
-  if (square > 0) add(far);
-  if (area_left > 0) add(left);
-  if (area_right < 0) add(right);
+  chosen.add(first);
+  if (square > 0) chosen.add(far);
+  if (area_left > 0) chosen.add(left);
+  if (area_right < 0) chosen.add(right);
+  return chosen;
 }
-
-}  // namespace
 
 NearestPoints nearest_of_segments(const core::Vec3& from, const core::Vec3& way, const core::Vec3& other_from,
                                   const core::Vec3& other_way) {
@@ -108,7 +104,15 @@ void ContactFinder::choose(const core::Vec3& plane_normal, double height, double
     const double depth = height - plane_normal.dot(point);
     if (depth >= -margin_) deep_.push_back({point + 0.5 * depth * plane_normal, std::min(depth, most_depth)});
   }
-  spread(deep_, plane_normal, found);
+  std::size_t deepest = 0;
+  for (std::size_t i = 1; i < deep_.size(); ++i) {
+    if (deep_[i].depth > deep_[deepest].depth) deepest = i;
+  }
+  const Chosen chosen = spread(deep_, deepest, plane_normal);
+  for (int i = 0; i < chosen.count; ++i) {
+    const ContactPoint& point = deep_[chosen.index[static_cast<std::size_t>(i)]];
+    found.add(point.position, point.depth);
+  }
 }
 
 void ContactFinder::meet(const Polyhedron& a, const Polyhedron& b, const LeastOverlap& least,
@@ -140,22 +144,49 @@ void ContactFinder::lie_on_plane(const Polyhedron& a, const core::Vec3& on_plane
   choose(normal, normal.dot(on_plane), model::infinity, found);
 }
 
+void ContactFinder::lie_on_face(const Polyhedron& a, const Polyhedron& b, int face, ContactPoints& found) {
+  found.normal = b.normal(face);
+  outline_face(a, a.face_towards(-found.normal));
+  cut_to_face(b, face);
+  choose(found.normal, b.height(face), model::infinity, found);
+}
+
+void ContactFinder::lie_along_face(const Core& a, const Polyhedron& b, int face, const core::Vec3& normal,
+                                   ContactPoints& found) {
+  found.normal = normal;
+  const core::Vec3 half = a.half * a.axis, foot = a.centre - a.radius * normal;
+  outline_ = {foot - half, foot + half};
+  cut_to_face(b, face);
+  const core::Vec3& up = b.normal(face);
+  for (const core::Vec3& point : outline_) {
+    const double deep = b.height(face) - up.dot(point);
+    if (deep >= -margin_) found.add(point + 0.5 * deep * up, deep);
+  }
+}
+
+void ContactFinder::lie_capsule_on_face(const Core& a, const Polyhedron& b, int face, ContactPoints& found) {
+  lie_along_face(a, b, face, b.normal(face), found);
+  if (a.half == 0) found.count = std::min(found.count, 1);
+}
+
+void ContactFinder::lie_cylinder_on_face(const Core& a, const Polyhedron& b, int face, double most_depth,
+                                         ContactPoints& found) {
+  found.normal = b.normal(face);
+  outline_cylinder(a, -found.normal);
+  cut_to_face(b, face);
+  choose(found.normal, b.height(face), most_depth, found);
+}
+
 /// On a face, or along an edge that is parallel to it, a capsule has a point at each end of what lies there.
 void ContactFinder::meet_capsule(const Core& a, const Polyhedron& b, const core::Vec3& normal, double depth,
                                  ContactPoints& found) {
-  found.normal = normal;
   const core::Vec3 half = a.half * a.axis, foot = a.centre - a.radius * normal;
   const int face = b.face_towards(normal);
   if (b.normal(face).dot(normal) > lies_on_face) {
-    outline_ = {foot - half, foot + half};
-    cut_to_face(b, face);
-    const core::Vec3& up = b.normal(face);
-    for (const core::Vec3& point : outline_) {
-      const double deep = b.height(face) - up.dot(point);
-      if (deep >= -margin_) found.add(point + 0.5 * deep * up, deep);
-    }
+    lie_along_face(a, b, face, normal, found);
     if (found.count > 0) return;
   }
+  found.normal = normal;
   for (const model::Hull::Edge& edge : b.edges()) {
     const core::Vec3& from = b.vertex(edge.vertices[0]);
     const core::Vec3 along = b.vertex(edge.vertices[1]) - from;
@@ -222,9 +253,7 @@ void ContactFinder::meet_cylinder(const Core& a, const Polyhedron& b, const Leas
   const core::Vec3& normal = least.normal();
   found.normal = normal;
   if (least.kind() == Kind::face_of_b) {
-    outline_cylinder(a, -normal);
-    cut_to_face(b, least.first());
-    choose(normal, b.height(least.first()), least.depth(), found);
+    lie_cylinder_on_face(a, b, least.first(), least.depth(), found);
     if (found.count > 0) return;
   }
   if (least.kind() == Kind::face_of_a) {  // the face of b that looks at the end, within its rim

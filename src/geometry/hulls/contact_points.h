@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "core/vector.h"
@@ -26,6 +27,18 @@ struct ContactPoints {
   }
 };
 
+/// Up to four of many points.
+struct Chosen {
+  std::array<std::size_t, ContactPoints::most> index{};
+  int count = 0;
+
+  void add(std::size_t i) { index[static_cast<std::size_t>(count++)] = i; }
+};
+
+/// Which of the points spread most: `first`, the one farthest from it, and the farthest on either side of the
+/// line between these two, as for boxes (solver/collide/spread.h).
+Chosen spread(std::span<const ContactPoint> points, std::size_t first, const core::Vec3& normal);
+
 /// Cuts one solid's outline to the faces of another. Keeps its memory.
 class ContactFinder {
  public:
@@ -42,12 +55,20 @@ class ContactFinder {
                     ContactPoints& found);
   void meet_cylinder(const Core& a, const Polyhedron& b, const LeastOverlap& least, ContactPoints& found);
 
+  /// What of `a` is over a face of b, with the face's normal.
+  void lie_on_face(const Polyhedron& a, const Polyhedron& b, int face, ContactPoints& found);
+  void lie_capsule_on_face(const Core& a, const Polyhedron& b, int face, ContactPoints& found);
+  void lie_cylinder_on_face(const Core& a, const Polyhedron& b, int face, double most_depth,
+                            ContactPoints& found);
+
  private:
   /// Keeps the part of the outline that lies within a face's sides.
   void cut_to_face(const Polyhedron& one, int face);
   /// Keeps the part where side . x <= limit (Sutherland and Hodgman).
   void cut(const core::Vec3& side, double limit);
   void outline_face(const Polyhedron& one, int face);
+  void lie_along_face(const Core& a, const Polyhedron& b, int face, const core::Vec3& normal,
+                      ContactPoints& found);
   bool outline_cylinder(const Core& core, const core::Vec3& towards);
   /// Chooses points of the outline by their depths below a plane, at most `most_depth`.
   void choose(const core::Vec3& plane_normal, double height, double most_depth, ContactPoints& found);

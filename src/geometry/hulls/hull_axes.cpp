@@ -68,7 +68,8 @@ void HullAxes::try_faces(const Polyhedron& one, const Polyhedron& other, Kind ki
     const core::Vec3& normal = one.normal(face);
     const Farthest found = other.farthest(-normal);
     const double gap = -found.height - one.height(face);
-    nearest[static_cast<std::size_t>(face)] = {other.vertex(found.vertex), gap};
+    const core::Vec3& point = other.vertex(found.vertex);
+    nearest[static_cast<std::size_t>(face)] = {point, normal.dot(point) - one.height(face)};
     least.add_face(kind, gap, kind == Kind::face_of_a ? core::Vec3(-normal) : normal, face);
   };
   try_face(first);

@@ -40,6 +40,7 @@ bool reaches_in(const Core& core, const Polyhedron& other) {
 /// Does the point, which is in a face's plane, lie within the face?
 bool is_on_face(const Polyhedron& one, int face, const core::Vec3& point) {
   const int count = one.num_corners(face);
+  if (count == 0) return false;
   for (int i = 0; i < count; ++i) {
     const core::Vec3 &from = one.corner(face, i), &to = one.corner(face, i + 1 == count ? 0 : i + 1);
     if ((to - from).cross(one.normal(face)).dot(point - from) > 0) return false;
@@ -72,13 +73,18 @@ NearestPoints nearest(const Core& core, const Polyhedron& other) {
   return best;
 }
 
+/// Is it a face of b that has no corners? What touches there is another triangle's affair.
+bool is_elsewhere(const LeastOverlap& least, const Polyhedron& b) {
+  return least.kind() == LeastOverlap::Kind::face_of_b && b.num_corners(least.first()) == 0;
+}
+
 }  // namespace
 
-void HullContacts::meet_round(const Core& a, ContactPoints& found) {
+void HullContacts::meet_round(const Core& a, const Polyhedron& b, ContactPoints& found) {
   core::Vec3 normal;
   double depth = 0;
   constexpr double least_distance = 1e-12;  // [m] below which two points give no direction
-  const NearestPoints near = reaches_in(a, b_) ? NearestPoints{} : nearest(a, b_);
+  const NearestPoints near = reaches_in(a, b) ? NearestPoints{} : nearest(a, b);
   const core::Vec3 apart = near.first - near.second;
   const double distance = apart.norm();
   if (distance > least_distance) {
@@ -87,34 +93,35 @@ void HullContacts::meet_round(const Core& a, ContactPoints& found) {
     if (depth < -margin_) return;
   } else {
     LeastOverlap least(margin_);
-    axes_.separate_capsule(a, b_, least);
-    if (least.apart()) return;
+    axes_.separate_capsule(a, b, least);
+    if (least.apart() || is_elsewhere(least, b)) return;
     normal = least.normal();
     depth = -least.gap();
   }
-  if (a.half > 0) return finder_.meet_capsule(a, b_, normal, depth, found);
+  if (a.half > 0) return finder_.meet_capsule(a, b, normal, depth, found);
   found.normal = normal;
   found.add(a.centre - (a.radius - 0.5 * depth) * normal, depth);
 }
 
-void HullContacts::meet_cylinder(const Core& a, ContactPoints& found) {
+void HullContacts::meet_cylinder(const Core& a, const Polyhedron& b, ContactPoints& found) {
   LeastOverlap least(margin_);
-  axes_.separate_cylinder(a, b_, least);
-  if (!least.apart()) finder_.meet_cylinder(a, b_, least, found);
+  axes_.separate_cylinder(a, b, least);
+  if (!least.apart() && !is_elsewhere(least, b)) finder_.meet_cylinder(a, b, least, found);
 }
 
-/// The hull is in b_, with its centre at the origin.
-void HullContacts::meet_hull(const model::Geom& a, const model::BodyPose& pose, ContactPoints& found) {
-  const core::Vec3& origin = origin_;
+void HullContacts::meet(const model::Geom& a, const model::BodyPose& pose, const core::Vec3& origin,
+                        const Polyhedron& b, ContactPoints& found) {
   switch (a.shape) {
     case Shape::sphere:
     case Shape::capsule:
-      return meet_round(core_of(a, pose, origin), found);
+      return meet_round(core_of(a, pose, origin), b, found);
     case Shape::cylinder:
-      return meet_cylinder(core_of(a, pose, origin), found);
+      return meet_cylinder(core_of(a, pose, origin), b, found);
     case Shape::plane:
-      finder_.lie_on_plane(b_, core::Vec3(pose.position) - origin, axis_z(pose), found);
+      finder_.lie_on_plane(b, core::Vec3(pose.position) - origin, axis_z(pose), found);
       found.normal = -found.normal;  // out of the plane, so into b
+      return;
+    case Shape::mesh:  // meets no static geom, and others as b
       return;
     case Shape::box:
     case Shape::hull:
@@ -122,8 +129,19 @@ void HullContacts::meet_hull(const model::Geom& a, const model::BodyPose& pose, 
   }
   a_.place(a, pose, origin);
   LeastOverlap least(margin_);
-  axes_.separate(a_, b_, least);
-  if (!least.apart()) finder_.meet(a_, b_, least, found);
+  axes_.separate(a_, b, least);
+  if (!least.apart() && !is_elsewhere(least, b)) finder_.meet(a_, b, least, found);
+}
+
+void HullContacts::lie_on(const model::Geom& a, const model::BodyPose& pose, const core::Vec3& origin,
+                          const Polyhedron& b, ContactPoints& found) {
+  constexpr int face = 0;
+  if (a.shape == Shape::sphere || a.shape == Shape::capsule)
+    return finder_.lie_capsule_on_face(core_of(a, pose, origin), b, face, found);
+  if (a.shape == Shape::cylinder)
+    return finder_.lie_cylinder_on_face(core_of(a, pose, origin), b, face, model::infinity, found);
+  a_.place(a, pose, origin);
+  finder_.lie_on_face(a_, b, face, found);
 }
 
 ContactPoints HullContacts::collide(const model::Geom& first, const model::BodyPose& first_pose,
@@ -133,53 +151,14 @@ ContactPoints HullContacts::collide(const model::Geom& first, const model::BodyP
   const model::Geom &a = swapped ? second : first, &b = swapped ? first : second;
   const model::BodyPose &a_pose = swapped ? second_pose : first_pose,
                         &b_pose = swapped ? first_pose : second_pose;
-  origin_ = core::Vec3(b_pose.position);
-  if (!(origin_ - core::Vec3(a_pose.position)).allFinite()) return found;
-  b_.place(b, b_pose, origin_);
-  meet_hull(a, a_pose, found);
+  const core::Vec3 origin(b_pose.position);
+  if (!(origin - core::Vec3(a_pose.position)).allFinite()) return found;
+  b_.place(b, b_pose, origin);
+  meet(a, a_pose, origin, b_, found);
   if (swapped) found.normal = -found.normal;
-  for (ContactPoint& point : found.points) point.position += origin_;
+  for (ContactPoint& point : found.points) point.position += origin;
   return found;
 }
-
-namespace {
-
-class HullNarrowPhase final : public model::NarrowPhase {
- public:
-  HullNarrowPhase(std::unique_ptr<model::NarrowPhase> other, const model::Model& model, double margin_m)
-      : other_(std::move(other)), model_(&model), hulls_(margin_m) {}
-
-  void collide(std::span<const model::BodyPose> poses, std::span<const model::GeomPair> pairs,
-               std::vector<model::Contact>& contacts) override {
-    for (const model::GeomPair& pair : pairs) {
-      if (has_hull(geom(pair.first), geom(pair.second)))
-        add(pair, poses, contacts);
-      else
-        other_->collide(poses, {&pair, 1}, contacts);
-    }
-  }
-
- private:
-  const model::Geom& geom(int index) const { return model_->geoms[static_cast<std::size_t>(index)]; }
-  model::BodyPose pose(const model::Geom& one, std::span<const model::BodyPose> poses) const {
-    return geom_pose(one,
-                     one.body == model::no_body ? static_pose() : poses[static_cast<std::size_t>(one.body)]);
-  }
-
-  void add(const model::GeomPair& pair, std::span<const model::BodyPose> poses,
-           std::vector<model::Contact>& contacts) {
-    const model::Geom &first = geom(pair.first), &second = geom(pair.second);
-    const ContactPoints found = hulls_.collide(first, pose(first, poses), second, pose(second, poses));
-    for (int i = 0; i < std::min(found.count, model_->contact_law.max_per_pair); ++i)
-      contacts.push_back(contact_at(*model_, pair, found.normal, found.points[static_cast<std::size_t>(i)]));
-  }
-
-  std::unique_ptr<model::NarrowPhase> other_;
-  const model::Model* model_;
-  HullContacts hulls_;
-};
-
-}  // namespace
 
 model::Contact contact_at(const model::Model& model, const model::GeomPair& pair, const core::Vec3& normal,
                           const ContactPoint& point) {
@@ -197,14 +176,6 @@ model::Contact contact_at(const model::Model& model, const model::GeomPair& pair
   contact.restitution = material.restitution;
   contact.geoms = pair;
   return contact;
-}
-
-std::unique_ptr<model::NarrowPhase> with_hulls(std::unique_ptr<model::NarrowPhase> other,
-                                               const model::Model& model, double margin_m) {
-  const bool any =
-      std::ranges::any_of(model.geoms, [](const model::Geom& geom) { return geom.shape == Shape::hull; });
-  if (!any) return other;
-  return std::make_unique<HullNarrowPhase>(std::move(other), model, margin_m);
 }
 
 }  // namespace pbmpi::geometry

@@ -1,7 +1,5 @@
-/// Contacts of hulls with all shapes.
+/// Contacts of hulls with all shapes but meshes.
 #pragma once
-
-#include <memory>
 
 #include "geometry/hulls/contact_points.h"
 #include "model/contact.h"
@@ -23,29 +21,27 @@ class HullContacts {
   ContactPoints collide(const model::Geom& first, const model::BodyPose& first_pose,
                         const model::Geom& second, const model::BodyPose& second_pose);
 
+  /// Where a geom touches a polyhedron; positions about `origin` [m], world frame. Nothing where the
+  /// polyhedron is a triangle, and what touches is beside it.
+  void meet(const model::Geom& a, const model::BodyPose& pose, const core::Vec3& origin, const Polyhedron& b,
+            ContactPoints& found);
+  /// What of a geom is over face 0 of a polyhedron, with that face's normal.
+  void lie_on(const model::Geom& a, const model::BodyPose& pose, const core::Vec3& origin,
+              const Polyhedron& b, ContactPoints& found);
+
  private:
-  void meet_hull(const model::Geom& a, const model::BodyPose& pose, ContactPoints& found);
-  void meet_round(const Core& a, ContactPoints& found);
-  void meet_cylinder(const Core& a, ContactPoints& found);
+  void meet_round(const Core& a, const Polyhedron& b, ContactPoints& found);
+  void meet_cylinder(const Core& a, const Polyhedron& b, ContactPoints& found);
 
   double margin_;
-  core::Vec3 origin_ = core::Vec3::Zero();  ///< [m] of the pair, world frame
   Polyhedron a_, b_;
   HullAxes axes_;
   ContactFinder finder_;
 };
 
-inline bool has_hull(const model::Geom& first, const model::Geom& second) {
-  return first.shape == model::Shape::hull || second.shape == model::Shape::hull;
-}
-
 /// A point that was found for a pair, with the normal into its first geom, as a contact: body a is a real
 /// one.
 model::Contact contact_at(const model::Model& model, const model::GeomPair& pair, const core::Vec3& normal,
                           const ContactPoint& point);
-
-/// `other`, with HullContacts for the pairs that have a hull. `model` is borrowed.
-std::unique_ptr<model::NarrowPhase> with_hulls(std::unique_ptr<model::NarrowPhase> other,
-                                               const model::Model& model, double margin_m);
 
 }  // namespace pbmpi::geometry

@@ -1,10 +1,10 @@
-/// A hull or a box at a place in the world, for collision detection.
+/// A hull, a box or a triangle of a mesh at a place in the world, for collision detection.
 #pragma once
 
 #include <vector>
 
+#include "geometry/triangle_mesh.h"
 #include "model/contact.h"
-#include "model/model.h"
 
 namespace pbmpi::geometry {
 
@@ -15,10 +15,16 @@ struct Farthest {
 };
 
 /// Vertices and faces of a hull in the world's axes, about an origin near the pair. Keeps its memory.
+///
+/// A triangle stands for the solid below it, which goes on without an end: it is face 0, and its other faces
+/// are planes through its edges (TriangleMesh::Edges::sides), without corners.
 class Polyhedron {
  public:
   /// `geom`: a hull or a box; `pose`: its own (geom_pose()); `origin` [m], world frame.
   void place(const model::Geom& geom, const model::BodyPose& pose, const core::Vec3& origin);
+  /// A triangle of a mesh, whose pose it is.
+  void place_triangle(const TriangleMesh& mesh, int triangle, const model::BodyPose& pose,
+                      const core::Vec3& origin);
 
   const core::Vec3& centre() const { return centre_; }
   /// [m] Radius of the ball about its centre that it holds.
@@ -37,12 +43,14 @@ class Polyhedron {
   }
   const std::vector<model::Hull::Edge>& edges() const { return shape_->edges; }
 
+  /// Infinitely high where a solid has no end in that direction.
   Farthest farthest(const core::Vec3& direction) const;
-  /// The face whose normal is nearest to the direction.
+  /// The face with corners whose normal is nearest to the direction.
   int face_towards(const core::Vec3& direction) const;
 
  private:
   const model::Hull* shape_ = nullptr;
+  bool is_endless_ = false;  ///< against the normal of face 0
   core::Vec3 centre_;
   double inner_radius_ = 0;
   std::vector<core::Vec3> vertices_, normals_;

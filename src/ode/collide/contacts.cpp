@@ -7,6 +7,8 @@
 namespace pbmpi::ode {
 namespace {
 
+constexpr int most_of_dcollide = 0xffff;  // its flags hold the count in 16 bits
+
 void put(const model::Vec3& position, const model::Vec3& normal, double depth, dContactGeom& found) {
   for (int k = 0; k < 3; ++k) {
     found.pos[k] = real(position[k]);
@@ -25,9 +27,10 @@ Contacts::Contacts(const model::Model& model, const effects::StepPlan& plan,
       restitution_(plan.has(effects::EffectId::restitution)),
       cross_space_(plan.has(effects::EffectId::cross_space)),
       joints_(dJointGroupCreate(0)),
+      most_per_pair_(std::min(model.contact_law.max_per_pair, most_of_dcollide)),
+      found_(static_cast<std::size_t>(most_per_pair_)),
+      surfaces_(0, model.contact_law.max_per_pair),
       seams_(plan.has(effects::EffectId::collision) ? geometry::Seams::find(model) : nullptr) {
-  constexpr int most_of_dcollide = 0xffff;  // the flags of dCollide hold the count in 16 bits
-  found_.resize(static_cast<std::size_t>(std::min(model.contact_law.max_per_pair, most_of_dcollide)));
   contact_.surface.soft_erp = model.contact_law.soft_erp;
   contact_.surface.soft_cfm = model.contact_law.soft_cfm;
   contact_.surface.bounce_vel = model.contact_law.bounce_velocity;
@@ -68,25 +71,23 @@ void Contacts::make(dWorldID world, const std::vector<GeomPair>& pairs, const st
 }
 
 int Contacts::collide(const GeomPair& pair, const std::vector<dGeomID>& geoms) {
-  if (geometry::has_hull(model_->geoms[pair.first], model_->geoms[pair.second])) return collide_hulls(pair);
-  return dCollide(geoms[pair.first], geoms[pair.second], static_cast<int>(found_.size()), found_.data(),
-                  sizeof(dContactGeom));
+  if (geometry::has_surface(model_->geoms[pair.first], model_->geoms[pair.second]))
+    return collide_surfaces(pair);
+  return dCollide(geoms[pair.first], geoms[pair.second], most_per_pair_, found_.data(), sizeof(dContactGeom));
 }
 
 /// ODE's own colliders for convex shapes know neither capsules nor cylinders.
-int Contacts::collide_hulls(const GeomPair& pair) {
+int Contacts::collide_surfaces(const GeomPair& pair) {
   const auto placed = [&](const model::Geom& geom) {
     return geometry::geom_pose(geom,
                                geom.body == model::no_body ? geometry::static_pose() : pose_of(geom.body));
   };
   const model::Geom &first = model_->geoms[pair.first], &second = model_->geoms[pair.second];
-  const geometry::ContactPoints points = hulls_.collide(first, placed(first), second, placed(second));
-  const int count = std::min(points.count, static_cast<int>(found_.size()));
-  for (int i = 0; i < count; ++i) {
-    const geometry::ContactPoint& point = points.points[static_cast<std::size_t>(i)];
-    put(point.position, points.normal, point.depth, found_[static_cast<std::size_t>(i)]);
-  }
-  return count;
+  const auto points = surfaces_.collide(first, placed(first), second, placed(second));
+  found_.resize(std::max(found_.size(), points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i)
+    put(points[i].at.position, points[i].normal, points[i].at.depth, found_[i]);
+  return static_cast<int>(points.size());
 }
 
 model::BodyPose Contacts::pose_of(int body) const {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "effects/effects.h"
-#include "geometry/hulls/hull_contacts.h"
+#include "geometry/hulls/surface_contacts.h"
 #include "geometry/seams.h"
 #include "model/contact.h"
 #include "model/step_memory.h"
@@ -26,7 +26,7 @@ class Contacts {
   /// `model` is borrowed.
   Contacts(const model::Model& model, const effects::StepPlan& plan, const std::vector<dBodyID>& bodies);
 
-  /// Collides each pair (dCollide with the lower geom first, or HullContacts) and joins touching geoms, in
+  /// Collides each pair (dCollide with the lower geom first, or SurfaceContacts) and joins touching geoms, in
   /// the order of `pairs`.
   void make(dWorldID world, const std::vector<GeomPair>& pairs, const std::vector<dGeomID>& geoms);
   /// Adds joints for the speculative contacts of fast bodies (effects::FastBodies): gaps that may close in a
@@ -55,7 +55,7 @@ class Contacts {
   dBodyID body_id(int body) const { return body == model::no_body ? nullptr : bodies_[body]; }
   /// Fills found_; returns how many.
   int collide(const GeomPair& pair, const std::vector<dGeomID>& geoms);
-  int collide_hulls(const GeomPair& pair);
+  int collide_surfaces(const GeomPair& pair);
   model::BodyPose pose_of(int body) const;
   int correct_at_seams(const GeomPair& pair, int num_contacts);
   void join(dWorldID world, const GeomPair& pair, int num_contacts);
@@ -70,8 +70,9 @@ class Contacts {
   bool cross_space_;
   JointGroupHandle joints_;
   dContact contact_{};               ///< the contact that is being filled
-  std::vector<dContactGeom> found_;  ///< [max_per_pair]
-  geometry::HullContacts hulls_{0};
+  int most_per_pair_;                ///< of dCollide
+  std::vector<dContactGeom> found_;  ///< at least [most_per_pair_]
+  geometry::SurfaceContacts surfaces_;
   std::unique_ptr<const geometry::Seams> seams_;  ///< none where no geoms touch that keep together
   std::vector<model::Contact> corrected_;         ///< scratch of correct_at_seams()
   struct Kept {

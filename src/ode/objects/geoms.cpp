@@ -71,7 +71,8 @@ dGeomID make_shape(const model::Geom& geom, dSpaceID space) {
       return dCreateCylinder(space, size[0], size[1]);
     case model::Shape::plane:
       return make_plane(geom, space);
-    case model::Shape::hull:  // for the broad phase alone: HullContacts finds its contacts
+    case model::Shape::hull:  // for the broad phase alone: SurfaceContacts finds their contacts
+    case model::Shape::mesh:
       return dCreateBox(space, size[0], size[1], size[2]);
   }
   throw std::logic_error("ode: a shape without a geom");

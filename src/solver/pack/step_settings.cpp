@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/random.h"
-#include "geometry/hulls/hull_contacts.h"
+#include "geometry/hulls/surface_contacts.h"
 #include "solver/pack/simd.h"
 
 namespace pbmpi::solver {
@@ -51,8 +51,8 @@ std::unique_ptr<model::NarrowPhase> make_fallback(const stepping::StepperSetting
                                                   const model::Model& model,
                                                   const model::MakeNarrowPhase& make_other) {
   const bool lanes_collide = settings.law.colliders == stepping::Colliders::lanes;
-  return geometry::with_hulls(make_other(model), model,
-                              lanes_collide ? contact_margin_m(settings, model) : 0);
+  return geometry::with_surfaces(make_other(model), model,
+                                 lanes_collide ? contact_margin_m(settings, model) : 0);
 }
 
 Spring contact_spring(const stepping::StepperSettings& settings) {

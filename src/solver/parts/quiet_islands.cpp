@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/body_size.h"
+#include "geometry/measures.h"
 
 namespace pbmpi::solver {
 namespace {

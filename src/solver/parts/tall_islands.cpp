@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/body_size.h"
+#include "geometry/measures.h"
 #include "solver/pack/step_settings.h"
 
 namespace pbmpi::solver {

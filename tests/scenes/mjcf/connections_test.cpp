@@ -164,6 +164,62 @@ TEST(Ellipsoid, that_touches_nothing_has_its_mass) {
   EXPECT_TRUE(model->geoms.empty());
 }
 
+TEST(Ellipsoid, touches_as_a_hull_with_its_own_mass) {
+  const std::string xml = mujoco(
+      "<body name='b'><freejoint/><geom type='ellipsoid' size='.1 .2 .3' density='1000' pos='1 0 "
+      "0'/></body>");
+  const auto model = model_of(xml);
+  const model::Geom& geom = model->geoms.at(0);
+  EXPECT_EQ(geom.shape, model::Shape::hull);
+  for (const model::Vec3& vertex : geom.hull->vertices) {
+    const model::Vec3 at = vertex.cwiseQuotient(model::Vec3(.1, .2, .3));
+    EXPECT_NEAR(at.norm(), 1,
+                1e-3);  // about its centre of mass, which the points only nearly have in the middle
+  }
+  EXPECT_EQ(geom.hull->vertices.size(), 128u);
+  EXPECT_NEAR(link(*model, "b").mass_kg, 1000 * 4.0 / 3 * 3.14159265358979 * .1 * .2 * .3, 1e-9);
+  EXPECT_TRUE(says(notes_of(xml), "hull of 128 of its points"));
+}
+
+/// As MuJoCo's: the first row at +y, from 0 to the height of `size`.
+TEST(HeightField, is_a_mesh_over_its_grid) {
+  const auto model = model_of(
+      mujoco("<geom type='hfield' hfield='h' pos='0 0 5'/>" + boxed("<freejoint/>"),
+             "<asset><hfield name='h' nrow='2' ncol='3' size='3 1 2 .1' elevation='1 1 1 1 5 3'/></asset>"));
+  const model::Geom& geom = model->geoms.at(0);
+  ASSERT_EQ(geom.shape, model::Shape::mesh);
+  EXPECT_EQ(geom.body, model::no_body);
+  EXPECT_EQ(geom.hull->faces.size(), 4u);
+  const auto height_at = [&](double x, double y) {
+    for (const model::Vec3& vertex : geom.hull->vertices) {
+      const model::Vec3 at = geom.local.position + vertex;
+      if (std::abs(at.x() - x) < 1e-9 && std::abs(at.y() - y) < 1e-9) return at.z() - 5;
+    }
+    return -1.0;
+  };
+  EXPECT_NEAR(height_at(0, 1), 0, 1e-12);
+  EXPECT_NEAR(height_at(0, -1), 2, 1e-12);
+  EXPECT_NEAR(height_at(3, -1), 1, 1e-12);
+  EXPECT_NEAR(height_at(-3, -1), 0, 1e-12);
+}
+
+TEST(HeightField, without_its_numbers_or_on_a_body_that_moves_is_refused) {
+  const auto with = [](const std::string& field, const std::string& world) {
+    return refusal_of(
+        mujoco(world + boxed("<freejoint/>"), "<asset><hfield name='h' " + field + "/></asset>"));
+  };
+  const std::string standing = "<geom type='hfield' hfield='h'/>",
+                    moving = "<body><freejoint/><geom size='1'/>" + standing + "</body>";
+  const auto expect = [](const std::string& refusal, const std::string& words) {
+    EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
+  };
+  expect(with("size='1 1 1 1' nrow='2' ncol='2' elevation='1 2 3'", standing), "nrow x ncol");
+  expect(with("size='1 1 1 1' nrow='2' ncol='1'", standing), "at least 2");
+  expect(with("size='1 1 0 1' nrow='2' ncol='2'", standing), "four numbers above 0");
+  expect(with("size='1 1 1 1' file='a.png'", standing), "not read from files");
+  expect(with("size='1 1 1 1' nrow='2' ncol='2'", moving), "cannot move");
+}
+
 TEST(Flags, take_out_what_they_disable) {
   const auto with = [](const std::string& flag) {
     return model_of(mujoco(boxed("<joint name='h' range='0 1' frictionloss='1' damping='2' stiffness='4'/>"),

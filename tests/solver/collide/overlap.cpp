@@ -64,6 +64,7 @@ double support(const PlacedGeom& solid, const Vec3& n) {
       return size[0] * std::hypot(local.x(), local.y()) + 0.5 * size[1] * std::abs(local.z());
     case Shape::plane:
     case Shape::hull:
+    case Shape::mesh:
       break;
   }
   return 0;
@@ -113,6 +114,7 @@ double distance_outside(const PlacedGeom& solid, const Vec3& place) {
       return std::hypot(beyond(beside, size[0]), beyond(local.z(), size[1] / 2));
     case Shape::plane:
     case Shape::hull:
+    case Shape::mesh:
       break;
   }
   return 0;

@@ -16,7 +16,7 @@ pb.unitSolids = (numInstances) => {
   };
 };
 
-// A hull as a solid in its own size.
+// A hull, or a mesh, as a solid in its own size.
 pb.hullSolid = (corners) => {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute('position', new THREE.BufferAttribute(corners, 3));
@@ -29,6 +29,7 @@ pb.solidsOf = (shape, [a, b, c], hull) => {
   switch (shape) {
     // Without its surface, as in the file of a study, a hull is drawn as an ellipsoid.
     case 'hull': return [hull < 0 ? {solid: 'ball', z: 0, scale: [a / 2, b / 2, c / 2]} : {solid: `hull${hull}`, z: 0, scale: [1, 1, 1]}];
+    case 'mesh': return hull < 0 ? [] : [{solid: `hull${hull}`, z: 0, scale: [1, 1, 1]}];
     case 'sphere': return [{solid: 'ball', z: 0, scale: [a, a, a]}];
     case 'box': return [{solid: 'box', z: 0, scale: [a, b, c]}];
     case 'cylinder': return [{solid: 'drum', z: 0, scale: [a, a, b]}];
