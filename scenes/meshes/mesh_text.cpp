@@ -75,7 +75,8 @@ std::string surface_text(const Mesh& mesh) {
 }
 
 Mesh read_surface_text(const std::string& text, const std::string& file) {
-  return read_mesh(text, file + (is_mesh_file(file) && file.back() != 'l' ? "" : ".obj"));
+  const bool is_obj = is_mesh_file(file) && (file.back() | 0x20) == 'j';  // also .OBJ
+  return read_mesh(text, is_obj ? file : file + ".obj");
 }
 
 MeshPoints read_mesh_text(const std::string& text, const std::string& file) {

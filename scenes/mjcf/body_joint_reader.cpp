@@ -24,24 +24,34 @@ model::AxisLimit read_range(Attributes& joint, bool is_angle, double reference, 
   return {from_pose(range[0]), from_pose(range[1])};
 }
 
-/// Neither a ball joint nor a free body has an axis for a motor or a limit.
-void refuse_axis_laws(Attributes& joint, const links::LinkJoint& read, bool is_limited) {
+/// Neither a ball joint nor a free body has an axis for a motor or a limit. They often get one by a default
+/// that is meant for hinges: the scene may leave those out of the joints of this type alone.
+void refuse_axis_laws(Attributes& joint, const xml::LeaveOut& leave_out, links::LinkJoint& read,
+                      bool& is_limited) {
+  const std::string type = read.motion == Motion::free ? "free" : "ball";
   const auto refuse = [&](std::string_view name, bool is_on) {
-    if (is_on)
+    if (!is_on) return;
+    if (!leave_out.names(type))
       joint.fail_unless_left_out(
-          name, core::in_quotes(name) + " of a joint of type ball or free has no equal; take hinges");
+          name, core::in_quotes(name) + " of a joint of type " + type + " has no equal; take hinges", type);
+    leave_out.notes().add(joint.where(name),
+                          core::in_quotes(name) + " of a joint of type " + type + " is left out");
   };
   refuse("damping", read.drive.damping > 0);
   refuse("stiffness", read.drive.stiffness > 0);
   refuse("frictionloss", read.drive.friction > 0);
   refuse("armature", read.armature > 0);
   refuse("range", is_limited);
+  read.drive = {};
+  read.armature = 0;
+  is_limited = false;
 }
 
 }  // namespace
 
 ReadJoint read_joint(Attributes attributes, const std::string& name, const Compiler& compiler,
-                     const Option& option, xml::Notes& notes) {
+                     const Option& option, const xml::LeaveOut& leave_out) {
+  xml::Notes& notes = leave_out.notes();
   ReadJoint read;
   links::LinkJoint& joint = read.joint;
   joint.where = attributes.where();
@@ -65,8 +75,8 @@ ReadJoint read_joint(Attributes attributes, const std::string& name, const Compi
   joint.armature = attributes.number("armature", Range::non_negative, 0.0);
   attributes.allow({"limited", "range"});
   const bool may_have_limits = joint.motion != Motion::free && option.has_limits;
-  const bool is_limited = may_have_limits && compiler.is_limited(attributes, "limited", "range");
-  if (!is_hinge && !is_slide) refuse_axis_laws(attributes, joint, is_limited);
+  bool is_limited = may_have_limits && compiler.is_limited(attributes, "limited", "range");
+  if (!is_hinge && !is_slide) refuse_axis_laws(attributes, leave_out, joint, is_limited);
   if (is_limited) joint.limit = read_range(attributes, is_hinge, joint.reference, compiler);
   attributes.refuse({"springdamper"}, "give 'stiffness' and 'damping' instead");
   for (const char* key : {"solreflimit", "solimplimit", "solreffriction", "solimpfriction", "margin"}) {

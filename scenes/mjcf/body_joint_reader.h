@@ -3,7 +3,7 @@
 
 #include "scenes/links/links.h"
 #include "scenes/mjcf/settings/compiler.h"
-#include "scenes/xml/notes.h"
+#include "scenes/xml/leave_out.h"
 
 namespace pbmpi::scenes::mjcf {
 
@@ -15,7 +15,7 @@ struct ReadJoint {
 
 /// `attributes` include the defaults of the joint's class; `name`: used for a joint without a name.
 ReadJoint read_joint(xml::Attributes attributes, const std::string& name, const Compiler& compiler,
-                     const Option& option, xml::Notes& notes);
+                     const Option& option, const xml::LeaveOut& leave_out);
 
 links::LinkJoint read_free_joint(const xml::Element& element, const std::string& name,
                                  const xml::LeaveOut& leave_out);

@@ -243,7 +243,7 @@ class BodyReader {
       read.joint = read_free_joint(element, "", leave_out_);
     } else {
       read = read_joint(Attributes(element, leave_out_, context.defaults.of(element, scope.childclass)), "",
-                        context.compiler, context.option, notes_);
+                        context.compiler, context.option, leave_out_);
     }
     read.joint.name = scope.named(read.joint.name);
     read.joint.anchor = scope.frame.point_to_outer(read.joint.anchor);

@@ -129,7 +129,6 @@ const geometry::PlacedMesh& Meshes::height_field_of(Attributes& geom) {
   if (size.empty() || !(*std::ranges::min_element(size) > 0))
     field.fail("'size' needs four numbers above 0: half the sides, the height, the depth of the base [m]");
   constexpr std::size_t most = geometry::most_mesh_triangles;
-  if (rows < 2 || columns < 2) field.fail("a height field needs 'nrow' and 'ncol', each at least 2");
   if (rows > most || columns > most || rows * columns > most)
     field.fail("nrow", "a height field has at most " + std::to_string(most) + " points");
   std::vector<double> given = field.numbers("elevation", 1, most);

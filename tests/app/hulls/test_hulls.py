@@ -168,7 +168,9 @@ class Hulls(ProgramTest):
         self.write_bytes("parts/cube.stl", binary_stl(TRIANGLES))
         self.write_bytes("parts/text.stl", text_stl(TRIANGLES).encode())
         self.write_bytes("parts/cube.obj", obj().encode())
-        for file in ("cube.stl", "text.stl", "cube.obj"):
+        self.write_bytes("parts/BINARY.STL", binary_stl(TRIANGLES))
+        self.write_bytes("parts/LINES.OBJ", obj().encode())
+        for file in ("cube.stl", "text.stl", "cube.obj", "BINARY.STL", "LINES.OBJ"):
             self.write("cube.toml", hull(f'file = "parts/{file}"\nscale = [0.5, 0.5, 1]'))
             mass, inertia = self.mass("cube.toml")
             self.assertAlmostEqual(mass, 2000, delta=1e-9)

@@ -214,7 +214,8 @@ TEST(HeightField, without_its_numbers_or_on_a_body_that_moves_is_refused) {
     EXPECT_NE(refusal.find(words), std::string::npos) << refusal;
   };
   expect(with("size='1 1 1 1' nrow='2' ncol='2' elevation='1 2 3'", standing), "nrow x ncol");
-  expect(with("size='1 1 1 1' nrow='2' ncol='1'", standing), "at least 2");
+  expect(with("size='1 1 1 1' nrow='2' ncol='1'", standing), "from 2 on");
+  expect(with("size='1 1 1 1'", standing), "from 2 on");
   expect(with("size='1 1 0 1' nrow='2' ncol='2'", standing), "four numbers above 0");
   expect(with("size='1 1 1 1' file='a.png'", standing), "not read from files");
   expect(with("size='1 1 1 1' nrow='2' ncol='2'", moving), "cannot move");

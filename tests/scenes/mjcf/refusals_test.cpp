@@ -68,7 +68,7 @@ std::vector<Refused> refused() {
       body("mesh", "<freejoint/><geom type='mesh' mesh='a'/>",
            {"m.xml:3:", "no <mesh> of <asset> is called 'a'"}),
       body("ellipsoid", "<freejoint/><geom type='ellipsoid' size='1 1'/>",
-           {"m.xml:3:", "'size'", "3 numbers"}),
+           {"m.xml:3:", "2 numbers instead of 3"}),
       body("fitted_ellipsoid", "<freejoint/><geom type='ellipsoid' mesh='a' size='1 1 1'/>",
            {"m.xml:3:", "three half axes"}),
       body("sdf", "<freejoint/><geom type='sdf' size='1 1 1'/>", {"m.xml:3:", "sdf"}),
@@ -159,6 +159,23 @@ TEST(MjcfRefusal, gives_way_to_leave_out_in_a_scene) {
   EXPECT_TRUE(says(notes_of(scene), "a.xml:1:"));
   EXPECT_TRUE(says(notes_of(scene), "'connect' is left out"));
   EXPECT_TRUE(says(notes_of(scene), "muscle"));
+}
+
+/// What a default gives to all joints is left out of those that it is not meant for, and of no other.
+TEST(MjcfRefusal, of_what_free_joints_have_by_default_gives_way_alone) {
+  const std::string text =
+      "<mujoco><default><joint damping='2' armature='.1'/></default><worldbody><body name='a'>"
+      "<joint type='free'/><geom size='1'/><body name='b' pos='0 0 3'><joint name='h'/><geom size='1'/>"
+      "</body></body></worldbody></mujoco>";
+  EXPECT_NE(refusal_of(text).find("leave_out = [\"free\"]"), std::string::npos);
+  const std::string scene =
+      "title = 't'\n[[actor]]\nname = 'm'\ntype = 'model'\nfile = 'a.xml'\nleave_out = ['free']\n"
+      "[files.'a.xml']\ntext = \"\"\"" +
+      text + "\"\"\"\n";
+  EXPECT_EQ(refusal_of(scene), "");
+  EXPECT_TRUE(says(notes_of(scene), "'damping' of a joint of type free is left out"));
+  EXPECT_EQ(joint_of(*model_of(scene), "h").armature[0], 0.1);
+  EXPECT_GT(joint_of(*model_of(scene), "h").motors[0].max_force, 0);
 }
 
 TEST(MjcfRefusal, ends_a_tree_that_is_too_deep) {
