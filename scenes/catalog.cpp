@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 /// around or in that of the model, or in one of those that ROS_PACKAGE_PATH lists. Empty without one.
 fs::path in_package(const std::string& name, const fs::path& folder) {
   constexpr std::string_view scheme = "package://";
-  const fs::path inside = fs::path(name.substr(scheme.size())).lexically_normal();
-  if (inside.empty() || inside.is_absolute() || *inside.begin() == "..") return {};
+  const fs::path inside = fs::path(name.substr(scheme.size())).relative_path().lexically_normal();
+  if (inside.empty() || *inside.begin() == "..") return {};
   std::vector<fs::path> roots;
   for (fs::path up = fs::absolute(folder); up != up.root_path(); up = up.parent_path()) roots.push_back(up);
   if (const char* listed = std::getenv("ROS_PACKAGE_PATH")) {

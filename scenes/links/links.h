@@ -64,6 +64,9 @@ struct Link {
   Pose pose;                           ///< in the parent's frame, before its joints move to their starts
   std::vector<LinkJoint> joints;       ///< none: rigidly part of the parent, or of the world
   std::optional<MassProperties> mass;  ///< in the link's frame
+  /// What is wrong with an inertia that no body has, with its place: wrong where what the link is rigidly
+  /// part of has none either.
+  std::string odd_inertia;
   std::vector<LinkGeom> geoms;
 };
 

@@ -14,6 +14,7 @@ using model::Mat3;
 /// Moves a link's mass and geoms into the rigid; `pose`: that of the link in the rigid's frame.
 void take_over(const Link& link, int index, const Pose& pose, Rigid& rigid) {
   if (link.mass) rigid.mass = together(rigid.mass, moved(*link.mass, pose));
+  if (rigid.odd_inertia.empty()) rigid.odd_inertia = link.odd_inertia;
   for (LinkGeom geom : link.geoms) {
     const bool stands_fast = geom.shape == model::Shape::plane || geom.shape == model::Shape::mesh;
     core::require_input(
@@ -42,6 +43,7 @@ void require_inertia(const Rigid& rigid) {
   core::require_input(eigen.eigenvalues().minCoeff() > 0,
                       rigid.where + ": " + core::in_quotes(rigid.name) +
                           " moves but its inertia is not positive definite; give it three positive moments");
+  core::require_input(rigid.odd_inertia.empty() || is_of_a_body(rigid.mass.inertia), rigid.odd_inertia);
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct Rigid {
   std::vector<LinkJoint> joints;  ///< joints to the parent; only the world has none
   MassProperties mass{0, Vec3::Zero(), model::Mat3::Zero()};  ///< in the rigid's frame
   std::vector<LinkGeom> geoms;                                ///< in the rigid's frame
+  std::string odd_inertia;                                    ///< of the first of its links that has one
 };
 
 struct RigidTree {

@@ -20,20 +20,23 @@ using xml::LeaveOut;
 using xml::Range;
 
 /// An inertia that no body has, if the user leaves it out: its moments become their mean, as with MuJoCo's
-/// balanceinertia.
-model::Mat3 checked_inertia(const model::Mat3& read, const Element& element, const LeaveOut& leave_out) {
+/// balanceinertia. Else it is kept: many files give one to small parts, such as sensors, that are fixed to
+/// others.
+model::Mat3 checked_inertia(const model::Mat3& read, const Element& element, const LeaveOut& leave_out,
+                            std::string& odd) {
   if (is_of_a_body(read)) return read;
   if (leave_out.names("inertia")) {
     leave_out.notes().add(element.where, "an inertia that no body has: its three moments become their mean");
     return read.trace() / 3 * model::Mat3::Identity();
   }
-  Attributes(element).fail(
-      "no body has a moment of inertia above the sum of the other two; change one, or let all "
-      "three be their mean: " +
-      LeaveOut::advice("inertia"));
+  odd = element.where +
+        ": inertia: no body has a moment of inertia above the sum of the other two; change one, or let all "
+        "three be their mean: " +
+        LeaveOut::advice("inertia");
+  return read;
 }
 
-MassProperties read_inertial(const Element& element, const LeaveOut& leave_out) {
+MassProperties read_inertial(const Element& element, const LeaveOut& leave_out, std::string& odd) {
   pass_over_unknown(element, {"origin", "mass", "inertia"}, leave_out);
   Attributes mass(need_child(element, "mass"), leave_out);
   const Element& moments = need_child(element, "inertia");
@@ -46,7 +49,7 @@ MassProperties read_inertial(const Element& element, const LeaveOut& leave_out) 
   read.inertia << ixx, ixy, ixz, ixy, iyy, iyz, ixz, iyz, izz;
   mass.finish(leave_out.notes());
   inertia.finish(leave_out.notes());
-  if (read.mass_kg > 0) read.inertia = checked_inertia(read.inertia, moments, leave_out);
+  if (read.mass_kg > 0) read.inertia = checked_inertia(read.inertia, moments, leave_out, odd);
   return links::moved(read, pose);
 }
 
@@ -141,7 +144,7 @@ links::Link read_link(const Element& element, const MeshTexts& meshes, const Lea
                     {"inertial", "visual", "collision", "contact", "self_collision_checking", "sensor"},
                     leave_out);
   if (const Element* inertial = child_of(element, "inertial")) {
-    const MassProperties mass = read_inertial(*inertial, leave_out);
+    const MassProperties mass = read_inertial(*inertial, leave_out, link.odd_inertia);
     if (mass.mass_kg > 0) link.mass = mass;
   }
   for (const Element& child : element.children) {

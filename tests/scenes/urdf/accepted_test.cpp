@@ -82,6 +82,16 @@ TEST(UrdfInertia, must_be_that_of_a_body_up_to_rounding) {
   EXPECT_NEAR(link(*model, "a").inertia(2, 2), 7.0 / 3, 1e-12);
 }
 
+/// As a sensor's, to which files give all six numbers alike.
+TEST(UrdfInertia, of_a_part_counts_as_it_is_where_the_whole_has_that_of_a_body) {
+  const std::string robot =
+      "<robot name='r'>" + link_of("a", "", "ixx='1' iyy='1' izz='1'") +
+      link_of("imu", "", "ixx='.1' iyy='.1' izz='.1' ixy='.1' ixz='.1' iyz='.1'") +
+      "<joint name='j' type='fixed'><parent link='a'/><child link='imu'/></joint></robot>";
+  EXPECT_EQ(refusal_of(robot), "");
+  EXPECT_NEAR(link(*model_of(robot), "a").inertia(0, 1), 0.1, 1e-12);
+}
+
 const std::string ball = "<collision><geometry><sphere radius='.1'/></geometry></collision>";
 
 TEST(UrdfRobot, touches_neither_its_fixed_base_nor_the_rest_of_itself_but_others) {
