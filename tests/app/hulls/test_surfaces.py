@@ -119,6 +119,41 @@ class Surfaces(ProgramTest):
             self.assertLess(way[:, 0, 0].max(), 10, stepper)
             self.assertGreater(way[:, 0, 0].max(), 9.5, stepper)
 
+    def test_nothing_passes_rough_ground_however_it_comes(self):
+        drawn = np.random.default_rng(3)
+        ground = mesh(*grid(20, 0.5, lambda x, y: round(drawn.uniform(-0.1, 0.1), 3)))
+        hull = "points = [[-0.1, -0.1, -0.1], [0.15, -0.1, -0.1], [0, 0.15, -0.1], [0, 0, 0.15]]"
+        kinds = (("sphere", "radius = 0.1"), ("box", "size = [0.3, 0.2, 0.1]"), ("capsule", "radius = 0.06\nlength = 0.3"),
+                 ("cylinder", "radius = 0.15\nlength = 0.1"), ("hull", hull))
+        shots = ""
+        for i in range(40):
+            kind, shape = kinds[i % len(kinds)]
+            along, up = drawn.uniform(0, 6.28), drawn.uniform(0.4, 1.5)
+            way = np.array([np.cos(along) * np.cos(up), np.sin(along) * np.cos(up), -np.sin(up)])
+            start = np.append(drawn.uniform(-2, 2, 2), 0) - drawn.uniform(2, 5) * way
+            shots += actor(f"{kind}{i}", kind, start.round(3).tolist(),
+                           f"{shape}\ndensity = 2000\nvelocity = {(300 * way).round(2).tolist()}\nrotation = {{ axis = [1, {i}, 0.3], angle = {17 * i} }}")
+        way = self.positions("overlap = inf\n" + ground + shots, "--stepper", "sor", "--frames", 20)
+        above = np.abs(way[:, :, :2]).max(axis=2) < 4.9
+        self.assertGreater(above.sum(), 40)
+        self.assertGreater(way[:, :, 2][above].min(), -0.2)
+
+    def test_a_room_holds_what_bounces_in_it(self):
+        corners = [[x, y, z] for z in (0, 4) for y in (-3, 3) for x in (-3, 3)]
+        sides = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))  # their fronts inside
+        room = mesh(corners, [[side[0], side[i], side[i + 1]] for side in sides for i in (1, 2)], "material = { mu = 0.3, restitution = 0.9 }")
+        drawn = np.random.default_rng(5)
+        things = ""
+        for i in range(20):
+            kind, shape = (("sphere", "radius = 0.15"), ("box", "size = [0.3, 0.2, 0.25]"))[i % 2]
+            velocity = (20 * (lambda v: v / np.linalg.norm(v))(drawn.normal(size=3))).round(2).tolist()
+            things += actor(f"{kind}{i}", kind, [-2 + i % 5, -1.5 + i // 5, 2],
+                            f"{shape}\ndensity = 500\nvelocity = {velocity}\nmaterial = {{ mu = 0.2, restitution = 0.9 }}")
+        for stepper in ("sor", "quick"):
+            way = self.positions(room + things, "--stepper", stepper, "--frames", 150)
+            self.assertLess(np.abs(way[:, :, :2]).max(), 3, stepper)
+            self.assertLess(np.abs(way[:, :, 2] - 2).max(), 2, stepper)
+
     def test_files_have_its_triangles_and_pages_draw_it(self):
         points, triangles = grid(4, 1.0, lambda x, y: 0.1 * x * y)
         os.makedirs(self.path("land"))
