@@ -6,7 +6,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "core/elementary.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "model/names.h"
@@ -166,20 +165,6 @@ ReadGeom read_field_geom(Attributes& attributes, links::LinkGeom geom, const Con
   attributes.allow({"size", "fromto", "mass", "density"});
   attributes.finish();
   return {geom, std::nullopt, {}};
-}
-
-/// The hull of 128 points of it, spread evenly on a spiral (R. Swinbank and R. J. Purser, "Fibonacci grids",
-/// Q. J. R. Meteorol. Soc. 132, 2006).
-geometry::FoundHull hull_of_ellipsoid(const Vec3& half, const std::string& where) {
-  constexpr int count = 128;
-  std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) {
-    const double z = (2 * i + 1.0) / count - 1, radius = std::sqrt(1 - z * z);
-    const double turn = i / std::numbers::phi;
-    const double angle = 2 * std::numbers::pi * (turn - std::floor(turn));
-    points.push_back(half.cwiseProduct(Vec3(radius * core::cosine(angle), radius * core::sine(angle), z)));
-  }
-  return geometry::convex_hull(points, count, where);
 }
 
 ReadGeom read_hull_geom(Attributes& attributes, const std::string& type, links::LinkGeom geom,

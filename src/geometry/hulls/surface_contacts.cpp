@@ -38,11 +38,10 @@ Box box_in(const model::Geom& geom, const core::Mat3& turn, const Vec3& centre, 
 
 void SurfaceContacts::find_near(const model::Geom& a, const model::BodyPose& pose, const TriangleMesh& mesh,
                                 const model::BodyPose& mesh_pose) {
-  const core::Mat3 to_mesh = Eigen::Map<const RowMajor>(mesh_pose.rotation).transpose();
   const core::Mat3 axes = Eigen::Map<const RowMajor>(pose.rotation);
-  const Vec3 centre = to_mesh * (Vec3(pose.position) - Vec3(mesh_pose.position));
+  const Vec3 centre = to_mesh_ * (Vec3(pose.position) - Vec3(mesh_pose.position));
   near_.clear();
-  mesh.tree.for_each_near(box_in(a, to_mesh * axes, centre, margin_),
+  mesh.tree.for_each_near(box_in(a, to_mesh_ * axes, centre, margin_),
                           [&](int triangle) { near_.push_back(triangle); });
   std::ranges::sort(near_);
 }
@@ -55,12 +54,11 @@ void SurfaceContacts::meet_triangle(const model::Geom& a, const model::BodyPose&
   triangle_.place_triangle(mesh, triangle, mesh_pose, origin);
   const Vec3& normal = triangle_.normal(0);
   const double below = triangle_.height(0);  // of the geom's centre, which is the origin
-  if (below > bounding_radius(a) || -half_extent(a, pose.rotation, -normal) - below > margin_) return;
-  const core::Mat3 to_mesh = Eigen::Map<const RowMajor>(mesh_pose.rotation).transpose();
+  if (below > size_ || -half_extent(a, pose.rotation, -normal) - below > margin_) return;
   ContactPoints touching;
   hulls_.meet(a, pose, origin, triangle_, touching);
-  const bool stands =
-      touching.count > 0 && is_own(mesh.edges[static_cast<std::size_t>(triangle)], to_mesh * touching.normal);
+  const bool stands = touching.count > 0 &&
+                      is_own(mesh.edges[static_cast<std::size_t>(triangle)], to_mesh_ * touching.normal);
   if (!stands) {
     touching.count = 0;
     hulls_.lie_on(a, pose, origin, triangle_, touching);
@@ -72,7 +70,7 @@ void SurfaceContacts::meet_triangle(const model::Geom& a, const model::BodyPose&
 }
 
 /// Points of neighbouring triangles may be one point.
-void SurfaceContacts::choose(const Vec3& normal, double size_m) {
+void SurfaceContacts::choose(const Vec3& normal) {
   constexpr double same_place = 1e-6;  // of the size
   constexpr std::size_t few = 16;      // more have four that are apart
   Vec3 middle = Vec3::Zero();
@@ -81,7 +79,7 @@ void SurfaceContacts::choose(const Vec3& normal, double size_m) {
     for (const SurfacePoint& point : patch_) {
       const auto end = patch_.begin() + static_cast<std::ptrdiff_t>(kept);
       const bool is_new = std::none_of(patch_.begin(), end, [&](const SurfacePoint& one) {
-        return (one.at.position - point.at.position).norm() <= same_place * size_m &&
+        return (one.at.position - point.at.position).norm() <= same_place * size_ &&
                (one.normal - point.normal).norm() <= same_place;
       });
       if (is_new) patch_[kept++] = point;
@@ -110,7 +108,7 @@ void SurfaceContacts::choose(const Vec3& normal, double size_m) {
 }
 
 /// Each patch is about the normal of the deepest point that is left.
-void SurfaceContacts::choose_patches(double size_m) {
+void SurfaceContacts::choose_patches() {
   constexpr double least_cosine = 0.97;  // 14 degrees
   for (std::size_t i = 0; i < most_patches && !all_.empty(); ++i) {
     const Vec3 normal =
@@ -120,17 +118,19 @@ void SurfaceContacts::choose_patches(double size_m) {
     });
     patch_.assign(rest, all_.end());
     all_.erase(rest, all_.end());
-    choose(normal, size_m);
+    choose(normal);
   }
 }
 
 void SurfaceContacts::meet_mesh(const model::Geom& a, const model::BodyPose& pose, const model::Geom& mesh,
                                 const model::BodyPose& mesh_pose) {
   if (!(Vec3(pose.position) - Vec3(mesh_pose.position)).allFinite()) return;
+  size_ = bounding_radius(a);
+  to_mesh_ = Eigen::Map<const RowMajor>(mesh_pose.rotation).transpose();
   find_near(a, pose, *mesh.mesh, mesh_pose);
   all_.clear();
   for (const int triangle : near_) meet_triangle(a, pose, *mesh.mesh, triangle, mesh_pose);
-  choose_patches(bounding_radius(a));
+  choose_patches();
 }
 
 std::span<const SurfacePoint> SurfaceContacts::collide(const model::Geom& first,

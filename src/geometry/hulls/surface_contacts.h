@@ -38,11 +38,13 @@ class SurfaceContacts {
                  const model::BodyPose& mesh_pose);
   void meet_triangle(const model::Geom& a, const model::BodyPose& pose, const TriangleMesh& mesh,
                      int triangle, const model::BodyPose& mesh_pose);
-  void choose_patches(double size_m);
-  void choose(const core::Vec3& normal, double size_m);
+  void choose_patches();
+  void choose(const core::Vec3& normal);
 
   double margin_;
   int most_;
+  double size_ = 0;     ///< [m] radius of the ball about the geom's centre that holds it
+  core::Mat3 to_mesh_;  ///< from the world's axes to the mesh's
   HullContacts hulls_;
   Polyhedron triangle_;
   std::vector<int> near_;
