@@ -64,6 +64,7 @@ TEST(FineIslands, have_contacts_ahead_of_what_is_fast_in_the_step) {
 TEST(FineIslands, are_only_those_of_bodies_that_approach) {
   StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.contacts = true;
+  settings.approach_m = 0;
   const auto plain = start(settings, meeting_balls(0.3));
   settings.approach_m = 0.1;
   const auto fine = start(settings, meeting_balls(0.3));
@@ -78,6 +79,7 @@ TEST(FineIslands, are_only_those_of_bodies_that_approach) {
 // Slow worlds have the bits that they have without.
 TEST(FineIslands, change_nothing_where_nothing_approaches) {
   StepperSettings settings = default_settings(stepping::StepperKind::sor);
+  settings.approach_m = 0;
   const auto plain = start(settings, yards(true, false));
   settings.approach_m = 0.1;
   const auto fine = start(settings, yards(true, false));
@@ -89,6 +91,7 @@ TEST(FineIslands, change_nothing_where_nothing_approaches) {
 TEST(FineIslands, need_a_memory) {
   StepperSettings settings = default_settings(stepping::StepperKind::sor);
   settings.law = stepping::ode_law();
+  settings.approach_m = 0;
   const auto plain = start(settings, meeting_balls(0.3));
   settings.approach_m = 0.1;
   const auto fine = start(settings, meeting_balls(0.3));
