@@ -2,9 +2,9 @@
 machine, and on a CPU that has none above SSE2. What changes them is a change of results: then the list is written anew
 (PBMPI_WRITE_GOLDEN_HASHES=1 in the environment), and the commit says why.
 
-The hashes are those of g++ and of clang++ (tests/gates.sh clang): nothing that a state depends on is left to the
-compiler, or to a library that has other code for other CPUs. Nor to the kind of CPU: with PBMPI_EMULATOR, a command that
-runs the programs of PBMPI_BIN, those of a cross build are compared (tests/gates.sh arm64)."""
+Nothing that a state depends on is left to a library that has other code for other CPUs, to the kind of CPU, or to the
+compiler: with PBMPI_EMULATOR, a command that runs the programs of PBMPI_BIN, those of a cross build by clang++ are compared
+(tests/gates.sh arm64)."""
 import concurrent.futures
 import itertools
 import json
