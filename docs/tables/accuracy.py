@@ -13,7 +13,8 @@ LINES = (("quick", 1, 1, 20), ("quick", 1, 1, 80), ("quick", 4, 1, 20), ("sor", 
          ("sor", 2, 7, 1), ("sor", 4, 3, 1), ("sor", 4, 4, 1), ("sor", 4, 14, 1), ("sor", 8, 2, 1))
 APPROACHES = ("0", "2cm")  # beside the default, 10 cm
 HELD = {"sor": ("sor", 1, 14, 1), **{f"sor approach={length}": ("sor", 1, 14, 1) for length in APPROACHES},
-        **{f"sor dt={0.01 / cut} substeps={substeps}": ("sor", cut, substeps, 1) for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
+        **{f"sor dt={0.01 / cut} substeps={substeps} approach=0": ("sor", cut, substeps, 1)
+           for cut, substeps in ((2, 5), (2, 7), (4, 3), (4, 4))}}
 
 
 def nature_file(folder):
@@ -80,11 +81,11 @@ def setting_of(case):
 
 
 def front():
-    """Error by nature and time of some settings in all scenes."""
+    """Error by nature and time of some settings in all scenes, each with one collision detection a step."""
     with programs.Folder() as folder:
         cases, _ = programs.accuracy_cases(folder, programs.SCENES, "--stepper", "quick", "sor", "--law", "soft", "--precision", "double",
-                                           "--iterations", "5", "20", "80", "--substeps", "1", "2", "3", "4", "5", "7", "14", "--estimates", "0",
-                                           "--rest-seconds", "0", "--repeats", "3")
+                                           "--iterations", "5", "20", "80", "--substeps", "1", "2", "3", "4", "5", "7", "14", "--approach", "0",
+                                           "--estimates", "0", "--rest-seconds", "0", "--repeats", "3")
     found = {(case["scene"], setting_of(case)): case for case in cases if case["kind"] == "setting"}
     unit = {scene: found[scene, ("quick", 1, 1, 20)]["frame_time_median"] for scene in programs.SCENES}
 
@@ -103,7 +104,7 @@ def held():
         verdicts, settings = (file["cases"][name].asstr()[:] for name in ("verdict", "setting"))
     of_setting = [verdicts[settings == name] for name in dict.fromkeys(settings)]
     counts = [[np.count_nonzero(verdicts == verdict) for verdict in stability.VERDICTS] for verdicts in of_setting]
-    approach = {setting: f", `--approach {setting.split('=')[1]}`" for setting in HELD if "approach" in setting}
+    approach = {setting: f", `--approach {setting.split('approach=')[1]}`" for setting in HELD if "approach" in setting}
     names = [setting_name(line) + approach.get(setting, "") for setting, line in HELD.items()]
     return programs.table(["hard cases", *stability.VERDICTS], [[name, *count] for name, count in zip(names, counts)])
 

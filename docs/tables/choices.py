@@ -33,13 +33,15 @@ def verdicts_at_equal_time(name):
 
 
 def approach(length):
-    """[(time over the default's, error rms [mm])] of --approach `length` in each scene."""
+    """[(time over the default's, error rms [mm])] of --approach `length` in each scene; None: of the default."""
     rows = {row["rms, 90th percentile, median [mm]"]: row for row in kept.rows("docs/accuracy.md", "fine")}
+    if length is None:
+        return [("1.0", rows["default"][scene].split(",")[0]) for scene in SCENES]
     return [(rows[f"time of --approach {length} over the default's"][scene], rows[f"--approach {length}"][scene].split(",")[0]) for scene in SCENES]
 
 
 def single():
-    """The same of --precision single."""
+    """The same of --precision single, over the time of double precision."""
     rows = [[kept.plain(cell) for cell in kept.cells(line)] for line in kept.lines(f"{kept.LONG}speed.md", "speed")[2:]]
     double, in_single = (next(row for row in rows if row[0] == f"sor {precision}, 14 x 1") for precision in ("double", "single"))
     return [(programs.digits(float(in_single[at][1:]) / float(double[at][1:])), in_single[at + 1]) for at in (1, 4)]
@@ -47,16 +49,18 @@ def single():
 
 def table():
     settings = front()
-    default = settings["sor, 10 ms, 14 x 1"]
+    once = settings["sor, 10 ms, 14 x 1"]  # one collision detection a step
+    once_over_default = {scene: float(time) for scene, (time, _) in zip(SCENES, approach("0"))}
 
     def of_front(name):
-        return [(programs.digits(float(settings[name][scene][0]) / float(default[scene][0])), settings[name][scene][1]) for scene in SCENES]
+        return [(programs.digits(once_over_default[scene] * float(settings[name][scene][0]) / float(once[scene][0])), settings[name][scene][1])
+                for scene in SCENES]
 
-    lines = (("the default", of_front("sor, 10 ms, 14 x 1"), verdicts_of_held("sor, 10 ms, 14 x 1")),
+    lines = (("the default", approach(None), verdicts_of_held("sor, 10 ms, 14 x 1")),
              ("`--precision single`", single(), verdicts_of_map("sor single, 14 x 1")),
              ("`--substeps 4`", of_front("sor, 10 ms, 4 x 1"), verdicts_at_equal_time("sor double, 4 x 1")),
              *((f"`--approach {length}`", approach(length), verdicts_of_held(f"sor, 10 ms, 14 x 1, --approach {length}")) for length in ("0", "2cm")),
-             ("`--dt 0.0025 --substeps 4`", of_front("sor, 2.5 ms, 4 x 1"), verdicts_of_held("sor, 2.5 ms, 4 x 1")),
+             ("`--dt 0.0025 --substeps 4`", of_front("sor, 2.5 ms, 4 x 1"), verdicts_of_held("sor, 2.5 ms, 4 x 1, --approach 0")),
              ("`--stepper quick`", of_front("quick, 10 ms, 1 x 20"), verdicts_of_map("quick, 1 x 20")))
     columns = [f"{scene}: {what}" for scene in SCENES for what in ("time over the default's", "error rms [mm]")]
     head = ["setting", *columns, "hard cases: pass / degraded / broken"]
