@@ -9,10 +9,17 @@ namespace {
 /// Seconds of a frame under an ownership, lower is better.
 double rating(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
   const PredictedLoads load = predict_loads(loads, owner, num_ranks);
-  // At equal makespans, less total work is better: it ships less.
-  double sum = 0;
-  for (const RankLoad& rank : load.ranks) sum += rank.collide_s + rank.solve_s;
-  return load.makespan_s() + 1e-3 * sum;
+  const double longest = load.makespan_s();
+  if (!(longest > 0)) return 0;
+  // At equal makespans, less total work is better, as it ships less; and even loads are, since of several
+  // ranks that take longest a change relieves one at a time.
+  double sum = 0, squares = 0;
+  for (const RankLoad& rank : load.ranks) {
+    const double busy_s = rank.collide_s + rank.solve_s;
+    sum += busy_s;
+    squares += busy_s * busy_s;
+  }
+  return longest + 1e-3 * (sum + squares / longest);
 }
 
 /// Local search over ownerships.
@@ -23,13 +30,14 @@ class Search {
     best_ = rating(loads_, owner_, num_ranks_);
   }
 
-  /// The best single change; false if none helps.
+  /// The best single change; a swap only where nothing less helps. False if none does.
   bool improve() {
     found_.clear();
+    find_longest();
     try_moves();
-    try_swaps();
-    try_mirrors();
     try_islands();
+    if (found_.empty()) try_swaps();  // far more of them than of the others
+    if (found_.empty()) try_mirrors();
     if (found_.empty()) return false;
     owner_ = found_;
     return true;
@@ -43,8 +51,26 @@ class Search {
     best_ = time;
     found_ = owner;
   }
+  /// The ranks for which others wait: no other change than one of theirs makes the frame shorter.
+  void find_longest() {
+    const PredictedLoads load = predict_loads(loads_, owner_, num_ranks_);
+    constexpr double level = 1 - 1e-6;
+    longest_.assign(load.ranks.size(), 0);
+    const auto mark = [&](auto seconds) {
+      const double most = seconds(*std::ranges::max_element(load.ranks, {}, seconds));
+      for (std::size_t rank = 0; rank < load.ranks.size(); ++rank) {
+        if (seconds(load.ranks[rank]) >= most * level) longest_[rank] = 1;
+      }
+    };
+    mark([](const RankLoad& rank) { return rank.collide_s + rank.solve_s; });
+    if (!load.ships) return;
+    mark([](const RankLoad& rank) { return rank.collide_s; });
+    mark([](const RankLoad& rank) { return rank.solve_s; });
+  }
+  bool is_longest(std::size_t space) const { return longest_[static_cast<std::size_t>(owner_[space])] != 0; }
   void try_moves() {
     for (std::size_t space = 0; space < owner_.size(); ++space) {
+      if (!is_longest(space)) continue;
       for (int rank = 0; rank < num_ranks_; ++rank) {
         if (rank == owner_[space]) continue;
         std::vector<int> changed = owner_;
@@ -54,11 +80,9 @@ class Search {
     }
   }
   void try_swaps() {
-    constexpr std::size_t most_spaces = 64;  // the number of swaps grows with the square of this
-    if (owner_.size() > most_spaces) return;
     for (std::size_t a = 0; a < owner_.size(); ++a) {
       for (std::size_t b = a + 1; b < owner_.size(); ++b) {
-        if (owner_[a] == owner_[b]) continue;
+        if (owner_[a] == owner_[b] || !(is_longest(a) || is_longest(b))) continue;
         std::vector<int> changed = owner_;
         std::swap(changed[a], changed[b]);
         consider(changed);
@@ -69,6 +93,8 @@ class Search {
   void try_mirrors() {
     for (int a = 0; a < num_ranks_; ++a) {
       for (int b = a + 1; b < num_ranks_; ++b) {
+        if (longest_[static_cast<std::size_t>(a)] == 0 && longest_[static_cast<std::size_t>(b)] == 0)
+          continue;
         std::vector<int> changed = owner_;
         for (int& rank : changed) rank = rank == a ? b : rank == b ? a : rank;
         consider(changed);
@@ -89,7 +115,8 @@ class Search {
   int num_ranks_;
   std::vector<int> owner_;
   double best_ = 0;
-  std::vector<int> found_;  ///< the best change of this round; empty if there is none
+  std::vector<char> longest_;  ///< [num_ranks]
+  std::vector<int> found_;     ///< the best change of this round; empty if there is none
 };
 
 }  // namespace

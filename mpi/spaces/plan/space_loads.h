@@ -78,9 +78,10 @@ struct Reassignment {
 };
 
 /// Local search for an ownership that makes the frame shorter, starting from the present one. It makes the
-/// best change as long as one helps: moving a space, swapping two spaces, swapping all spaces of two ranks,
-/// or bringing the spaces of an island together. Nothing moves if the predicted gain is less than half of
-/// `threshold` - 1. Deterministic: ties go to the lower space and rank.
+/// best change of the ranks that take longest as long as one helps: moving a space, bringing
+/// the spaces of an island together, or else swapping two spaces, or all spaces of two ranks. Nothing moves
+/// if the predicted gain is less than half of `threshold` - 1. Deterministic: ties go to the lower space and
+/// rank.
 Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
                              double threshold);
 

@@ -63,6 +63,25 @@ TEST(SpaceLoads, evens_out_by_moves_and_swaps) {
   EXPECT_EQ(makespan(loads, owners_after(loads, {0, 0, 1, 1}, 2), 2), 8);
 }
 
+// Sixteen towns of a large space and fourteen small ones. Where several ranks take longest, no move of one
+// space makes the frame shorter by itself.
+TEST(SpaceLoads, evens_out_many_spaces_over_many_ranks) {
+  constexpr int towns = 16, spaces_of_town = 15, ranks = 16;
+  SpaceLoads loads = spaces_of({});
+  double sum = 0;
+  for (int space = 0; space < towns * spaces_of_town; ++space) {
+    const int units = space % spaces_of_town == 0 ? 40 : 3 + space * 7 % 11;
+    loads.inside.push_back({{units}, 0, units});
+    loads.collide_s.push_back(0.1 * (space % 9));
+    sum += units + loads.collide_s.back();
+  }
+  std::vector<int> on_root(loads.inside.size(), 0), dealt;
+  for (std::size_t space = 0; space < loads.inside.size(); ++space)
+    dealt.push_back(static_cast<int>(space) % ranks);
+  for (const std::vector<int>& owner : {on_root, dealt})
+    EXPECT_LE(makespan(loads, owners_after(loads, owner, ranks), ranks), 1.02 * sum / ranks);
+}
+
 TEST(SpaceLoads, gives_root_less_where_its_section_takes_time) {
   SpaceLoads loads = spaces_of({2, 2, 2, 2});
   loads.root_extra_s = 4;
