@@ -35,7 +35,7 @@ TEST(TableColumns, options_are_the_words_that_give_the_setting) {
     EXPECT_EQ(text.find(" --stepper " + std::string(name_of(cases[i].stepper.kind)) + " "), 0u) << text;
     for (const stepping::StepOption& option : stepping::step_options()) {
       const bool is_there = text.find(" --" + std::string(option.name) + " " +
-                                      text_of(option, cases[i].stepper) + " ") != std::string::npos;
+                                      given_text(option, cases[i].stepper) + " ") != std::string::npos;
       EXPECT_EQ(is_there, option.in_studies && fits(option, cases[i].stepper.kind)) << option.name << text;
     }
   }

@@ -17,7 +17,8 @@ constexpr std::array<VariedOption, 7> varied = {{
     {"substeps", "sor; default: 1 2 4 7 14", "1 2 4 7 14"},
     {"precision", "sor: double, single; default: both", "double single"},
     {"tolerance", "soft law: below how long a way an island gets one substep; default: 0", "0"},
-    {"approach", "soft law: how far bodies may approach in a step before it is cut; default: 0, any", "0"},
+    {"approach", "soft law: how far bodies may approach in a step before it is cut; default: 10cm; 0: any",
+     "10cm"},
 }};
 constexpr VariedOption varied_dt = {
     "dt",
