@@ -80,6 +80,10 @@ class Search {
     }
   }
   void try_swaps() {
+    constexpr std::size_t most_swaps = 4096;  // each is rated over all spaces
+    std::size_t num_longest = 0;
+    for (std::size_t space = 0; space < owner_.size(); ++space) num_longest += is_longest(space) ? 1 : 0;
+    if (num_longest * owner_.size() > most_swaps) return;
     for (std::size_t a = 0; a < owner_.size(); ++a) {
       for (std::size_t b = a + 1; b < owner_.size(); ++b) {
         if (owner_[a] == owner_[b] || !(is_longest(a) || is_longest(b))) continue;
