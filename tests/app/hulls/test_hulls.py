@@ -1,5 +1,4 @@
 """Convex hulls: a pile of stones with the same bits everywhere, meshes from files, and what is wrong with them."""
-import json
 import os
 import re
 import struct
@@ -11,7 +10,8 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import SOURCE, ProgramTest  # noqa: E402
+from harness import SOURCE  # noqa: E402
+from scene_test import SceneTest  # noqa: E402
 
 STONES = os.path.join(SOURCE, "scenes", "models", "stones.toml")
 # The corners of a cube of 2 m, and the two triangles of each of its faces, counter-clockwise as seen from outside.
@@ -71,17 +71,11 @@ URDF = """<robot name="r"><link name="base"><inertial><mass value="1"/><inertia 
 """
 
 
-class Hulls(ProgramTest):
+class Hulls(SceneTest):
     def write_bytes(self, name, content):
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         with open(self.path(name), "wb") as file:
             file.write(content)
-
-    def refused(self, name, *words):
-        result = self.pbmpi(1, "--scene", name, "--frames", 1, "--no-output")
-        self.assertEqual(result.returncode, 2, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
 
     def mass(self, name):
         self.summary(1, "--scene", name, "--frames", 1, "--quiet", "--output", "run.h5")
@@ -91,15 +85,7 @@ class Hulls(ProgramTest):
 
     def test_stones_have_one_hash_for_ranks_threads_and_instruction_sets(self):
         args = ("--scene", STONES, "--stepper", "sor", "--frames", 30, "--quiet", "--no-output")
-        one = self.summary(1, *args, "--replicas", 3)["state_hash"]
-        self.assertEqual(self.summary(2, *args, "--replicas", 3)["state_hash"], one)
-        self.assertEqual(self.summary(3, *args, "--replicas", 3)["state_hash"], one)
-        self.assertEqual(self.summary(1, *args, "--replicas", 3, "--threads", 3)["state_hash"], one)
-        for simd in ("off", "sse2", "avx2", "avx512"):
-            result = self.pbmpi(1, *args, "--replicas", 3, "--simd", simd, "--report", "json")
-            if result.returncode == 2 and "lacks the instruction set" in result.stderr:
-                continue  # not this machine's
-            self.assertEqual(json.loads(result.stdout)["state_hash"], one, simd)
+        self.assert_one_hash(*args)
 
     def test_a_world_cut_into_spaces_has_the_hash_of_the_whole_one(self):
         with open(STONES, encoding="utf-8") as file:

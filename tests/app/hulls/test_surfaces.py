@@ -1,5 +1,4 @@
 """Meshes of triangles and height fields: what rests on them, rolls over them and is shot at them, with the same bits everywhere."""
-import json
 import os
 import sys
 import unittest
@@ -8,7 +7,8 @@ import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import SOURCE, ProgramTest  # noqa: E402
+from harness import SOURCE  # noqa: E402
+from scene_test import SceneTest  # noqa: E402
 
 TERRAIN = os.path.join(SOURCE, "scenes", "models", "terrain.toml")
 
@@ -35,7 +35,7 @@ def actor(name, kind, place, keys):
     return f'[[actor]]\nname = "{name}"\ntype = "{kind}"\nposition = {list(place)}\n{keys}\n'
 
 
-class Surfaces(ProgramTest):
+class Surfaces(SceneTest):
     def positions(self, scene, *args):
         """Of all bodies, frame by frame."""
         self.write("scene.toml", 'title = "t"\n' + scene)
@@ -43,24 +43,13 @@ class Surfaces(ProgramTest):
         with h5py.File(self.path("run.h5")) as file:
             return file["particles/bodies/position/value"][:]
 
-    def refused(self, scene, *words):
-        self.write("scene.toml", 'title = "t"\n' + scene)
-        result = self.pbmpi(1, "--scene", "scene.toml", "--frames", 1, "--no-output")
-        self.assertEqual(result.returncode, 2, result.stderr)
-        for word in words:
-            self.assertIn(word, result.stderr)
+    def refused_text(self, text, *words):
+        self.write("scene.toml", 'title = "t"\n' + text)
+        self.refused("scene.toml", *words)
 
     def test_terrain_has_one_hash_for_ranks_threads_instruction_sets_and_spaces(self):
         args = ("--scene", TERRAIN, "--stepper", "sor", "--frames", 45, "--quiet", "--no-output")
-        one = self.summary(1, *args, "--replicas", 3)["state_hash"]
-        self.assertEqual(self.summary(2, *args, "--replicas", 3)["state_hash"], one)
-        self.assertEqual(self.summary(3, *args, "--replicas", 3)["state_hash"], one)
-        self.assertEqual(self.summary(1, *args, "--replicas", 3, "--threads", 3)["state_hash"], one)
-        for simd in ("off", "sse2", "avx2", "avx512"):
-            result = self.pbmpi(1, *args, "--replicas", 3, "--simd", simd, "--report", "json")
-            if result.returncode == 2 and "lacks the instruction set" in result.stderr:
-                continue  # not this machine's
-            self.assertEqual(json.loads(result.stdout)["state_hash"], one, simd)
+        self.assert_one_hash(*args)
         whole = self.summary(1, *args)["state_hash"]
         self.assertEqual(self.summary(2, *args, "--decompose", "spaces")["state_hash"], whole)
 
@@ -201,7 +190,7 @@ class Surfaces(ProgramTest):
                 ('type = "heightfield"\nsize = [1, 1]\nheights = [[0, inf], [0, 0]]', "scene.toml:", "finite"),
                 ('type = "heightfield"\nsize = [1, 0]\nheights = [[0, 0], [0, 0]]', "scene.toml:", "above 0"),
                 (f'type = "mesh"\n{corners}\ntriangles = [[0, 1, 2]]\nvelocity = [1, 0, 0]', "scene.toml:", "velocity")):
-            self.refused(f'[[actor]]\nname = "land"\n{keys}\n' + ball, *words)
+            self.refused_text(f'[[actor]]\nname = "land"\n{keys}\n' + ball, *words)
 
 
 if __name__ == "__main__":
