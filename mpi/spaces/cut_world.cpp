@@ -130,7 +130,7 @@ const stepping::StepContacts* CutWorld::contacts() const {
 std::int64_t CutWorld::plan_moves(bool may_move) {
   planned_ = {};
   if (is_frozen_) return 0;  // nothing was measured
-  planned_ = rebalancer_.decide(step_.findings(), ownership_, comm_->size() > 1 && may_move);
+  planned_ = rebalancer_.decide(step_.findings(), ownership_, step_.boxes(), comm_->size() > 1 && may_move);
   return std::ssize(planned_.moves);
 }
 

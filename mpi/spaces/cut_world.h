@@ -16,7 +16,7 @@
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/communicator.h"
 #include "mpi/frame/run_settings.h"
-#include "mpi/spaces/plan/space_loads.h"
+#include "mpi/spaces/plan/reassign_spaces.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "mpi/spaces/space_rebalancer.h"
 #include "mpi/spaces/step/space_step.h"

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "mpi/frame/state_transfer.h"
 #include "mpi/frame/whole_state.h"
+#include "mpi/spaces/plan/initial_owners.h"
 
 namespace pbmpi::mpi {
 namespace {
@@ -63,7 +64,7 @@ void SpaceDriver::build(std::span<stepping::SpaceStepper* const> steppers) {
     }
     for (stepping::SpaceStepper* stepper : steppers) {
       std::vector<int> owners = settings().placement;
-      if (owners.empty()) owners = initial_owners(stepper->map(), group_.size());
+      if (owners.empty()) owners = initial_owners(stepper->model(), stepper->map(), group_.size());
       worlds_.push_back(
           std::make_unique<CutWorld>(group_, *stepper, errors(), settings(), std::move(owners)));
     }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include "core/clock.h"
 #include "effects/field_of_interest.h"
+#include "geometry/box_tree.h"
 #include "mpi/spaces/plan/space_loads.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "mpi/spaces/step/frame_report.h"
@@ -24,6 +26,7 @@ struct MeasuredFrame {
   const effects::FieldOfInterest* field = nullptr;  ///< null without one
   const SpaceOwnership* ownership = nullptr;        ///< the ownership during the frame
   const FrameFindings* findings = nullptr;          ///< findings of its last step
+  std::span<const geometry::Box> boxes;             ///< [num_spaces] at its end
   std::span<const core::PhaseTimes> times;          ///< [num_ranks] seconds a frame by phase
   int steps_per_frame = 1;
 };
@@ -112,6 +115,54 @@ std::vector<RankSample> samples_of(const SpaceLoads& loads, const MeasuredFrame&
   return samples;
 }
 
+/// Overlapping boxes are near each other now; boxes that do so once each has grown by half of its longest
+/// side may soon be.
+geometry::Box with_surroundings(const geometry::Box& box) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, box.max[k] - box.min[k]);
+  return box.grown(longest / 2);
+}
+
+/// [boxes] the others that each one overlaps.
+std::vector<std::vector<int>> overlapping(std::span<const geometry::Box> boxes) {
+  std::vector<std::vector<int>> others(boxes.size());
+  geometry::BoxTree tree;
+  tree.set(boxes);
+  for (int box = 0; box < std::ssize(boxes); ++box) {
+    tree.for_each_near(boxes[box], [&](int other) {
+      if (other != box) others[box].push_back(other);
+    });
+  }
+  return others;
+}
+
+/// Splits root's section into what it does in any case, and what the bodies near other ranks' spaces cost it.
+void split_root_section(const MeasuredFrame& frame, SpaceLoads& loads) {
+  const std::vector<int>& owner = frame.ownership->owner;
+  const model::SpaceMap& map = frame.stepper->map();
+  std::vector<geometry::Box> grown;
+  for (const geometry::Box& box : frame.boxes) grown.push_back(with_surroundings(box));
+  const std::vector<std::vector<int>> now = overlapping(frame.boxes), soon = overlapping(grown);
+  int num_bodies = 0, num_near = 0;
+  for (std::size_t space = 0; space < owner.size(); ++space) {
+    SpaceBorder& border = loads.borders.emplace_back();
+    border.neighbours = soon[space];
+    for (const int unit : map.units_of_space[space])
+      border.bodies += static_cast<int>(map.bodies_of_unit[unit].size());
+    num_bodies += border.bodies;
+    if (std::ranges::any_of(now[space], [&](int other) { return owner[other] != owner[space]; }))
+      num_near += border.bodies;
+  }
+  const double section_s = frame.times.front()[Phase::cross_space];
+  if (num_near > 0) {
+    loads.cross_s = section_s / num_near;
+  } else if (num_bodies > 0) {
+    // Not measured: as if root collided them once more, which keeps neighbours together where that is free.
+    loads.root_extra_s = section_s;
+    loads.cross_s = std::accumulate(loads.collide_s.begin(), loads.collide_s.end(), 0.0) / num_bodies;
+  }
+}
+
 /// Splits the ranks' seconds. Seconds of collision go to the spaces of the rank that spent them, by contact
 /// rows and bodies. Seconds of the solver go to batches of equal units and to contacts, by their rows, over
 /// all ranks (an island costs the same anywhere).
@@ -119,7 +170,7 @@ SpaceLoads measure_loads(const MeasuredFrame& frame) {
   auto [loads, collision] = weigh(frame);
   loads.collide_s = collision_seconds(frame, collision);
   loads.scale(fit_costs(samples_of(loads, frame)));
-  loads.root_extra_s = frame.times.front()[Phase::cross_space];
+  split_root_section(frame, loads);
   double ship_s = 0;
   for (const core::PhaseTimes& rank : frame.times) ship_s += rank[Phase::ship];
   if (frame.findings->bodies_shipped > 0)
@@ -147,16 +198,14 @@ std::vector<core::PhaseTimes> SpaceRebalancer::least_times() const {
 }
 
 Reassignment SpaceRebalancer::decide(const FrameFindings& findings, const SpaceOwnership& ownership,
-                                     bool may_move) {
+                                     std::span<const geometry::Box> boxes, bool may_move) {
   frames_until_decision_ = std::max(0, frames_until_decision_ - 1);
   if (!may_move || frames_until_decision_ > 0) return {};
+  frames_until_decision_ = frames_between_decisions + 1;
   const std::vector<core::PhaseTimes> times = least_times();
   const SpaceLoads loads =
-      measure_loads({stepper_, stepper_->field(), &ownership, &findings, times, steps_per_frame_});
-  Reassignment plan =
-      reassign_spaces(loads, ownership.owner, static_cast<int>(ownership.spaces.size()), threshold_);
-  if (!plan.moves.empty()) frames_until_decision_ = frames_between_decisions + 1;
-  return plan;
+      measure_loads({stepper_, stepper_->field(), &ownership, &findings, boxes, times, steps_per_frame_});
+  return reassign_spaces(loads, ownership.owner, static_cast<int>(ownership.spaces.size()), threshold_);
 }
 
 }  // namespace pbmpi::mpi

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/clock.h"
-#include "mpi/spaces/plan/space_loads.h"
+#include "mpi/spaces/plan/reassign_spaces.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "mpi/spaces/step/frame_report.h"
 #include "stepping/space_stepper.h"
@@ -13,8 +13,8 @@
 namespace pbmpi::mpi {
 
 /// Used on root, by SpaceDriver; sends nothing. The first decision falls after frame 2 (the first frame runs
-/// with cold caches). After spaces have moved, 4 frames pass before the next decision, and the new owners are
-/// timed. Each phase counts with its least seconds over the last 3 frames under the present owners: the
+/// with cold caches), and 4 frames pass between two; where spaces have moved, the new owners are timed in
+/// them. Each phase counts with its least seconds over the last 3 frames under the present owners: the
 /// machine can make a rank wait in one frame, but never saves it work.
 class SpaceRebalancer {
  public:
@@ -25,7 +25,9 @@ class SpaceRebalancer {
   /// To be called after each frame.
   void note_times(const FrameFindings& findings);
   /// After note_times(): which spaces move now, if any. `may_move`: there are other ranks, and another frame.
-  Reassignment decide(const FrameFindings& findings, const SpaceOwnership& ownership, bool may_move);
+  /// `boxes` [num_spaces]
+  Reassignment decide(const FrameFindings& findings, const SpaceOwnership& ownership,
+                      std::span<const geometry::Box> boxes, bool may_move);
   /// To be called when spaces have moved.
   void forget_times() { last_times_.clear(); }
 

@@ -81,38 +81,51 @@ std::vector<SlowBound> slow_bounds(const model::Model& model, double most_approa
   return bounds;
 }
 
-FastBodies::FastBodies(const model::Model& model, std::span<const char> of_bodies, double most_approach_m)
+FastBodies::FastBodies(const model::Model& model, double most_approach_m)
     : model_(&model),
       rule_(model),
       seams_(geometry::Seams::find(model)),
+      geoms_of_body_(model.bodies.size()),
       most_approach_m_(most_approach_m),
       moving_of_geom_(model.geoms.size(), -1),
       met_poses_(model.geoms.size()) {
   for (std::size_t i = 0; i < model.geoms.size(); ++i) {
     const model::Geom& geom = model.geoms[i];
-    const int index = static_cast<int>(i);
-    const double arm = geom.local.position.norm(), radius = geometry::bounding_radius(geom) + arm;
+    const double radius = geometry::bounding_radius(geom), arm = geom.local.position.norm();
+    Ball& ball = balls_.emplace_back(Ball{.body = geom.body});
     if (geom.body == model::no_body) {
-      balls_.push_back(
-          {index, model::no_body, geom.local.position, geometry::bounding_radius(geom), no_family});
-    } else if (of_bodies.empty() || of_bodies[geom.body] != 0) {
-      const int family = family_of(model, geom);
-      balls_.push_back({index, geom.body, core::Vec3::Zero(), radius, family});
-      watched_.push_back({index, geom.body, family, geometry::least_half_extent(geom), arm, radius});
+      ball.family = no_family;
+      ball.centre = geom.local.position;
+      ball.radius = radius;
+      static_geoms_.push_back(static_cast<int>(i));
+    } else {
+      ball.family = family_of(model, geom);
+      ball.radius = radius + arm;
+      ball.least_half = geometry::least_half_extent(geom);
+      ball.arm = arm;
+      geoms_of_body_[geom.body].push_back(static_cast<int>(i));
     }
+    chosen_.push_back(static_cast<int>(i));
   }
   for (const model::Body& body : model.bodies) ease_of_turning_.push_back(3 / body.inertia.trace());
 }
 
+void FastBodies::choose(std::span<const int> bodies) {
+  chosen_ = static_geoms_;
+  for (const int body : bodies)
+    chosen_.insert(chosen_.end(), geoms_of_body_[body].begin(), geoms_of_body_[body].end());
+  std::ranges::sort(chosen_);
+}
+
 /// The first test saves the two square roots a geom: the displacement and the rotation each account for less
 /// than half of what makes a geom fast. A non-finite speed counts as slow.
-bool FastBodies::is_slow(const Watched& watched, const core::Vec3& velocity, const core::Vec3& spin,
-                         double dt_s, double most_m) {
+bool FastBodies::is_slow(const Ball& ball, const core::Vec3& velocity, const core::Vec3& spin, double dt_s,
+                         double most_m) {
   const double half_s = 0.499 * most_m / dt_s;
-  const bool clearly = velocity.squaredNorm() < half_s * half_s &&
-                       spin.squaredNorm() * watched.arm * watched.arm < half_s * half_s;
+  const bool clearly =
+      velocity.squaredNorm() < half_s * half_s && spin.squaredNorm() * ball.arm * ball.arm < half_s * half_s;
   if (clearly) return true;
-  const double most = velocity.norm() + (watched.arm > 0 ? spin.norm() * watched.arm : 0);
+  const double most = velocity.norm() + (ball.arm > 0 ? spin.norm() * ball.arm : 0);
   return !(most * dt_s > most_m);
 }
 
@@ -120,29 +133,40 @@ bool FastBodies::look(const model::State& state, double dt_s, int pieces) {
   for (const Moving& moving : moving_) moving_of_geom_[moving.geom] = -1;
   moving_.clear();
   bodies_.clear();
-  moving_bodies_.clear();
-  for (const Watched& watched : watched_) {
-    const core::Vec3& velocity = state.velocity[watched.body];
-    const core::Vec3& spin = state.angular_velocity[watched.body];
-    const double most_slow = std::min(watched.least_half / pieces, most_approach_m_);
-    if (is_slow(watched, velocity, spin, dt_s, most_slow)) continue;
-    const model::Geom& geom = model_->geoms[watched.geom];
+  for (const int index : chosen_) {
+    const Ball& ball = balls_[index];
+    if (ball.body == model::no_body) continue;
+    const core::Vec3& velocity = state.velocity[ball.body];
+    const core::Vec3& spin = state.angular_velocity[ball.body];
+    const double most_slow = std::min(ball.least_half / pieces, most_approach_m_);
+    if (is_slow(ball, velocity, spin, dt_s, most_slow)) continue;
+    const model::Geom& geom = model_->geoms[index];
     const model::BodyPose at = pose_of(state, geom);
-    const core::Vec3 way = dt_s * velocity_of_centre(at, state.position[watched.body], velocity, spin);
+    const core::Vec3 way = dt_s * velocity_of_centre(at, state.position[ball.body], velocity, spin);
     const double length = way.norm();
     if (!std::isfinite(length) || !(length > most_slow)) continue;
     const double half = geometry::half_extent(geom, at.rotation, way / length);
     const bool is_fast = length * pieces > half, may_approach = length > most_approach_m_;
     if (!is_fast && !may_approach) continue;
-    moving_of_geom_[watched.geom] = static_cast<int>(moving_.size());
+    moving_of_geom_[index] = static_cast<int>(moving_.size());
     const core::Vec3 reach = way + half / length * way;
-    moving_.push_back({watched.geom, watched.family, watched.radius, at, way, reach, is_fast, may_approach});
-    if (is_fast) bodies_.push_back(watched.body);
-    moving_bodies_.push_back(watched.body);
+    moving_.push_back({index, ball.family, ball.radius, at, way, reach, is_fast, may_approach});
+    if (is_fast) bodies_.push_back(ball.body);
   }
   keep_once(bodies_);
-  keep_once(moving_bodies_);
   return !moving_.empty();
+}
+
+std::vector<FastBodies::Reach> FastBodies::reaches(const model::State& state) const {
+  std::vector<Reach> reaches;
+  for (const Moving& moving : moving_) {
+    const int body = model_->geoms[moving.geom].body;
+    // Its own search, and the ball in which a path of another one finds it.
+    geometry::Box box = geometry::swept_box(core::Vec3(moving.pose.position), moving.radius, moving.way);
+    box.include(geometry::swept_box(state.position[body], moving.radius, moving.way));
+    reaches.push_back({body, moving.may_approach ? box.grown(most_approach_m_) : box});
+  }
+  return reaches;
 }
 
 bool FastBodies::is_near(const model::State& state, const core::Vec3& middle, double half_way,
@@ -245,7 +269,7 @@ void FastBodies::find_approaches(const model::State& state, const Moving& from, 
                                  const Accepts& accepts) {
   const geometry::Box near = geometry::swept_box(core::Vec3(from.pose.position), from.radius, from.way);
   set.swept.for_each_near(near.grown(most_approach_m_), from.family, [&](int index) {
-    const int other = balls_[set.balls[index]].geom;
+    const int other = set.geoms[index];
     if (accepts(other)) approach(state, from, other);
   });
 }
@@ -259,9 +283,9 @@ void FastBodies::find_meetings(const model::State& state, const Moving& fast, co
   const core::Vec3 middle = centre + 0.5 * fast.reach;
   const double half = 0.5 * fast.reach.norm();
   const auto meet_if_near = [&](int index) {
-    const Ball& ball = balls_[set.balls[index]];
-    const int other = ball.geom;
+    const int other = set.geoms[index];
     if (!accepts(other)) return;
+    const Ball& ball = balls_[other];
     if (const Moving* too = moving(other); too != nullptr && too->is_fast) {
       const core::Vec3 way = with_front(geom, fast.pose, fast.way - too->way);
       if (is_near(state, centre + 0.5 * way, 0.5 * way.norm(), ball)) meet(state, fast, way, other);
@@ -279,23 +303,23 @@ void FastBodies::clear_sets(std::size_t count) {
   sets_.resize(count);
   for (BallSet& set : sets_) {
     set.swept.clear();
-    set.balls.clear();
+    set.geoms.clear();
   }
 }
 
-void FastBodies::put_ball(const model::State& state, int index, BallSet& set) const {
-  const Ball& ball = balls_[index];
+void FastBodies::put_ball(const model::State& state, int geom, BallSet& set) const {
+  const Ball& ball = balls_[geom];
   const core::Vec3& centre = ball.body == model::no_body ? ball.centre : state.position[ball.body];
-  const Moving* moves = moving(ball.geom);
+  const Moving* moves = moving(geom);
   set.swept.add(centre, ball.radius, moves != nullptr ? moves->way : core::Vec3(core::Vec3::Zero()),
                 ball.family);
-  set.balls.push_back(index);
+  set.geoms.push_back(geom);
 }
 
 void FastBodies::add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts) {
   if (moving_.empty()) return;
   clear_sets(1);
-  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) put_ball(state, i, sets_.front());
+  for (const int geom : chosen_) put_ball(state, geom, sets_.front());
   sets_.front().swept.finish();
   for (const Moving& moving : moving_)
     look_from(state, moving, sets_.front(), [&](int other) { return filter(moving.geom, other); });
@@ -310,10 +334,10 @@ void FastBodies::add_across(const model::State& state, std::span<const int> grou
   const bool all_in_first = std::all_of(moving_.begin(), moving_.end(),
                                         [&](const Moving& moving) { return group_of(moving) == first; });
   clear_sets(static_cast<std::size_t>(*std::max_element(group_of_body.begin(), group_of_body.end()) + 1));
-  for (int i = 0; i < static_cast<int>(balls_.size()); ++i) {
-    if (balls_[i].body == model::no_body) continue;
-    const int group = group_of_body[balls_[i].body];
-    if (!all_in_first || group != first) put_ball(state, i, sets_[group]);
+  for (const int geom : chosen_) {
+    if (balls_[geom].body == model::no_body) continue;
+    const int group = group_of_body[balls_[geom].body];
+    if (!all_in_first || group != first) put_ball(state, geom, sets_[group]);
   }
   for (BallSet& set : sets_) set.swept.finish();
   for (const Moving& moving : moving_) {

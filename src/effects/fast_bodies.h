@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/box.h"
 #include "geometry/seams.h"
 #include "geometry/swept_balls.h"
 #include "model/contact.h"
@@ -55,10 +56,12 @@ class FastBodies {
   /// False for a pair that another caller checks.
   using Filter = std::function<bool(int fast_geom, int other_geom)>;
 
-  /// `model` is borrowed. `of_bodies` [num_bodies]: considers only these bodies, and static geoms; empty:
-  /// all. An infinite `most_approach_m` finds no approaches.
-  explicit FastBodies(const model::Model& model, std::span<const char> of_bodies = {},
-                      double most_approach_m = model::infinity);
+  /// `model` is borrowed. Considers all bodies. An infinite `most_approach_m` finds no approaches.
+  explicit FastBodies(const model::Model& model, double most_approach_m = model::infinity);
+
+  /// From now on considers only these bodies, in any order, and static geoms, at a cost that does not depend
+  /// on how many others there are.
+  void choose(std::span<const int> bodies);
 
   /// Takes in which joints are broken from now on (State::broken_in).
   void set_broken(std::span<const std::int32_t> broken_in) { rule_ = model::TouchRule(*model_, broken_in); }
@@ -68,37 +71,36 @@ class FastBodies {
   bool look(const model::State& state, double dt_s, int pieces = 1);
   /// Bodies that had a fast geom in the last look(), ascending.
   const std::vector<int>& bodies() const { return bodies_; }
-  /// Those, and bodies that may approach others, ascending.
-  const std::vector<int>& moving_bodies() const { return moving_bodies_; }
+  /// The box in which a body of the last look() may meet or approach others in the step.
+  struct Reach {
+    int body = 0;
+    geometry::Box box;  ///< a body whose ball, at rest or swept along its way, stays outside gets no contact
+  };
+  std::vector<Reach> reaches(const model::State& state) const;  ///< at least one for each of these bodies
   /// Adds to `contacts`, in canonical order (sorted by Contact::geoms), the speculative contacts and the
   /// approaches of the last look()'s geoms with the geoms that `filter` accepts: at most one of each a pair,
   /// after the pair's touching contacts.
   void add(const model::State& state, const Filter& filter, std::vector<model::Contact>& contacts);
-  /// Like add(), but only with geoms of bodies of other groups; `group_of_body` [num_bodies], from 0 on.
+  /// Like add(), but only with geoms of bodies of other groups; `group_of_body` [num_bodies], from 0 on for
+  /// the bodies considered.
   void add_across(const model::State& state, std::span<const int> group_of_body,
                   std::vector<model::Contact>& contacts);
 
  private:
-  /// A ball that holds a geom, centred at its body's centre of mass so that it need not be turned.
+  /// What is looked up of a geom, with a ball that holds it, centred at its body's centre of mass so that it
+  /// need not be turned.
   struct Ball {
-    int geom = 0;
     int body = model::no_body;
+    int family = 0;                          ///< geoms of one family never touch
     core::Vec3 centre = core::Vec3::Zero();  ///< used for static geoms only
     double radius = 0;                       ///< [m]
-    int family = 0;                          ///< geoms of one family never touch
+    double least_half = 0;                   ///< half the geom's least extent [m]
+    double arm = 0;                          ///< distance of the geom from its body's centre of mass [m]
   };
   /// Current balls; those of fast geoms are swept along their paths.
   struct BallSet {
     geometry::SweptBalls swept;
-    std::vector<int> balls;  ///< index of each into balls_
-  };
-  /// A geom that moves.
-  struct Watched {
-    int geom = 0, body = 0;
-    int family = 0;         ///< Ball::family
-    double least_half = 0;  ///< half the least extent [m]
-    double arm = 0;         ///< distance from its body's centre of mass [m]
-    double radius = 0;      ///< of its ball [m]
+    std::vector<int> geoms;  ///< whose ball each is
   };
   /// A geom that is fast in this step, or may approach others, or both.
   struct Moving {
@@ -111,10 +113,10 @@ class FastBodies {
   };
 
   void clear_sets(std::size_t count);
-  void put_ball(const model::State& state, int index, BallSet& set) const;
+  void put_ball(const model::State& state, int geom, BallSet& set) const;
   void join_found(std::vector<model::Contact>& contacts);
   /// `most_m`: how far a slow geom may move in the step.
-  static bool is_slow(const Watched& watched, const core::Vec3& velocity, const core::Vec3& spin, double dt_s,
+  static bool is_slow(const Ball& ball, const core::Vec3& velocity, const core::Vec3& spin, double dt_s,
                       double most_m);
   /// The geom as moving; null if it is neither fast nor may approach another.
   const Moving* moving(int geom) const {
@@ -143,13 +145,15 @@ class FastBodies {
   const model::Model* model_;
   model::TouchRule rule_;
   std::unique_ptr<const geometry::Seams> seams_;  ///< none where no geoms touch that keep together
-  std::vector<Watched> watched_;                  ///< ascending
-  std::vector<Ball> balls_;                       ///< ascending, static ones too
+  std::vector<Ball> balls_;                       ///< [geoms]
+  std::vector<std::vector<int>> geoms_of_body_;   ///< [bodies] ascending
+  std::vector<int> static_geoms_;                 ///< ascending
+  std::vector<int> chosen_;                       ///< geoms that are considered, ascending, static ones too
   std::vector<double> ease_of_turning_;  ///< [bodies] one over the mean moment of inertia [1/(kg m^2)]
   double most_approach_m_;
   std::vector<Moving> moving_;       ///< ascending
   std::vector<int> moving_of_geom_;  ///< [geoms] index into moving_, or -1
-  std::vector<int> bodies_, moving_bodies_;
+  std::vector<int> bodies_;
   std::vector<std::optional<model::BodyPose>> met_poses_;  ///< [geoms] none: not computed yet
   std::vector<int> met_;                                   ///< moving geoms whose pose is in met_poses_
   std::vector<BallSet> sets_;  ///< scratch of add(), add_across(): one for each group

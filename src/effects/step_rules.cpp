@@ -91,7 +91,7 @@ void StepRules::look_ahead(RuledWorld& world) {
 }
 
 void StepRules::make_fast_bodies() {
-  fast_bodies_.emplace(*model_, std::span<const char>(), most_approach_m_);
+  fast_bodies_.emplace(*model_, most_approach_m_);
   fast_bodies_->set_broken(state_->broken_in);
 }
 

@@ -48,9 +48,6 @@ class SpaceStepper {
   /// Takes in rows of state() that were computed elsewhere: for each body position, orientation, velocity and
   /// angular velocity, 13 numbers.
   virtual void put_states(std::span<const int> bodies, std::span<const double> rows) = 0;
-  /// put_states() for position and orientation only, 7 numbers: enough to collide, not to solve. The velocity
-  /// becomes 0 where collide_across() would look at it.
-  virtual void put_poses(std::span<const int> bodies, std::span<const double> rows) = 0;
 
   /// State::broken_in of the joints of these units, unit by unit, and the call that takes it in from
   /// elsewhere; empty without the effect "breakable_joints". The joints of units that this rank owns or
@@ -78,26 +75,27 @@ class SpaceStepper {
     static_cast<void>(rows);
   }
 
-  /// Own bodies that are fast or may approach others in the current state (effects/fast_bodies.h), ascending:
-  /// collide_across() must have their whole states, and treats all other bodies as slow. None without the
-  /// pass.
-  virtual std::vector<int> fast_bodies() = 0;
-
   /// Fires the events of this step: all settings of joints, and the launches of own bodies.
   virtual void fire_events(std::int64_t step) = 0;
-  /// Fires the launches of the other bodies, for a rank that has their poses; adds their boxes to those of
-  /// their spaces, `boxes` [num_spaces].
-  virtual void launch_others(std::int64_t step, std::span<geometry::Box> boxes) = 0;
+  /// Fires the launches of the other bodies, for a rank that collides across: in a step once, however often
+  /// it is called. Rows that are put in afterwards are those of bodies that their owner has launched.
+  virtual void launch_others(std::int64_t step) = 0;
+  /// Do rules of effects change velocities between two steps? launch_others() then applies them to all other
+  /// bodies, whose states must be current.
+  virtual bool has_velocity_rules() const { return false; }
 
   /// Finds the contacts between bodies of own spaces, and of these with static geoms, in canonical order
   /// (sorted by Contact::geoms). None if a pose is not finite: the world is lost, and colliders must not see
   /// it.
   virtual void collide(std::vector<model::Contact>& contacts) = 0;
-  /// A box that holds the geoms of an own space at the poses of state(); it need not be tight.
-  virtual geometry::Box space_box(int space) const = 0;
-  /// Finds the contacts between bodies of spaces that different ranks own, in canonical order. `owner`,
-  /// `boxes`: [num_spaces]. Only geoms in the box of another owner's space, and those on the paths of fast
-  /// bodies, are considered.
+  /// Boxes [spaces] that hold the geoms of these spaces (ascending) at the poses of state(), and wherever
+  /// fast bodies may get in a step; they need not be tight.
+  virtual std::vector<geometry::Box> space_boxes(std::span<const int> spaces) = 0;
+  /// The spaces (ascending) whose box overlaps that of another owner's space; `owner`, `boxes`: [num_spaces].
+  virtual std::vector<int> near_spaces(std::span<const int> owner, std::span<const geometry::Box> boxes) = 0;
+  /// Finds the contacts between bodies of spaces that different ranks own, in canonical order, and what is
+  /// ahead of fast bodies there. `owner`, `boxes`: as in near_spaces(), whose spaces alone must be current
+  /// and are looked at.
   virtual void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
                               std::vector<model::Contact>& contacts) = 0;
 

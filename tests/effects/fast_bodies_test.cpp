@@ -305,7 +305,7 @@ TEST(FastBodies, find_across_groups_what_a_filter_would_let_through) {
 }
 
 std::vector<model::Contact> approaches_of(const model::Model& model, double most_approach_m = 0.05) {
-  FastBodies fast(model, {}, most_approach_m);
+  FastBodies fast(model, most_approach_m);
   const model::State state = model::initial_state(model);
   std::vector<model::Contact> contacts;
   if (fast.look(state, dt_s)) fast.add(state, all, contacts);
@@ -372,15 +372,21 @@ TEST(Approaches, are_the_same_across_groups) {
   EXPECT_GT(whole.size(), 12u);
   std::vector<int> group;
   for (int body = 0; body < model.num_bodies(); ++body) group.push_back(body % 3);
+  const auto bodies_of_group = [&](int own) {
+    std::vector<int> bodies;
+    for (int body = 0; body < model.num_bodies(); ++body) {
+      if (group[body] == own) bodies.push_back(body);
+    }
+    return bodies;
+  };
   std::vector<model::Contact> parts;
   for (int own = 0; own < 3; ++own) {
-    std::vector<char> is_own;
-    for (const int of : group) is_own.push_back(of == own ? 1 : 0);
-    FastBodies fast(model, is_own, 0.05);
+    FastBodies fast(model, 0.05);
+    fast.choose(bodies_of_group(own));
     fast.look(state, dt_s);
     fast.add(state, all, parts);
   }
-  FastBodies across(model, {}, 0.05);
+  FastBodies across(model, 0.05);
   across.look(state, dt_s);
   across.add_across(state, group, parts);
   std::erase_if(parts, [](const model::Contact& contact) { return !contact.is_approach(); });
@@ -395,15 +401,16 @@ TEST(Approaches, are_the_same_across_groups) {
 TEST(FastBodies, of_some_bodies_see_these_and_static_geoms_only) {
   const model::Model model = converging_balls();
   const model::State state = model::initial_state(model);
-  std::vector<char> some(model.bodies.size(), 0);
-  for (std::size_t body = 0; body < some.size(); body += 2) some[body] = 1;
+  std::vector<int> some;
+  for (int body = 0; body < model.num_bodies(); body += 2) some.push_back(body);
   const auto is_seen = [&](int geom) {
-    return model.geoms[geom].body == model::no_body || some[model.geoms[geom].body] != 0;
+    return model.geoms[geom].body == model::no_body || model.geoms[geom].body % 2 == 0;
   };
-  FastBodies fast(model, some);
+  FastBodies fast(model);
+  fast.choose(some);
   std::vector<model::Contact> found;
   ASSERT_TRUE(fast.look(state, dt_s));
-  for (const int body : fast.bodies()) EXPECT_EQ(some[body], 1);
+  for (const int body : fast.bodies()) EXPECT_EQ(body % 2, 0);
   fast.add(state, all, found);
   expect_same(found, contacts_of(model, [&](int a, int b) { return is_seen(a) && is_seen(b); }));
   EXPECT_FALSE(found.empty());

@@ -80,10 +80,6 @@ std::vector<double> space_costs(const model::SpaceMap& map) {
   return costs;
 }
 
-std::vector<int> initial_owners(const model::SpaceMap& map, int num_ranks) {
-  return lpt_placement(space_costs(map), num_ranks);
-}
-
 double cut_cost(std::span<const double> space_costs, int num_ranks) {
   const Placement owners = lpt_placement(space_costs, num_ranks);
   const std::vector<double> loads = rank_loads(owners, space_costs, num_ranks);

@@ -32,11 +32,8 @@ struct RankGroups {
 /// bodies.
 std::vector<double> space_costs(const model::SpaceMap& map);
 
-/// Owners of spaces before anything is measured, by longest processing time first.
-std::vector<int> initial_owners(const model::SpaceMap& map, int num_ranks);
-
-/// Cost of the busiest of `num_ranks` ranks under initial_owners(). It is at least the cost of the largest
-/// space, so more ranks than spaces gain nothing.
+/// Cost of the busiest of `num_ranks` ranks that share a world's spaces by longest processing time first. It
+/// is at least the cost of the largest space, so more ranks than spaces gain nothing.
 double cut_cost(std::span<const double> space_costs, int num_ranks);
 
 /// The smallest number of groups that have at most `ranks_per_world` ranks each, but never more than worlds;

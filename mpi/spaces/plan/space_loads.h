@@ -1,10 +1,8 @@
-/// Which rank should own which space: pure data, without communication.
+/// What each rank has to do if it owns some spaces: pure data, without communication.
 #pragma once
 
 #include <span>
 #include <vector>
-
-#include "mpi/balance/partition.h"
 
 namespace pbmpi::mpi {
 
@@ -14,13 +12,19 @@ struct SolverWork {
   double contacts_s = 0;   ///< seconds a frame for the contacts' rows
   int bodies = 0;
 
-  void add(const SolverWork& other);
+  void add(const SolverWork& other, int sign = 1);  ///< takes it away with -1
 };
 
 /// The part of an island that lies in one space.
 struct SpacePart {
   int space = 0;
   SolverWork work;
+};
+
+/// What root has to look at where spaces of different ranks are near each other.
+struct SpaceBorder {
+  int bodies = 0;
+  std::vector<int> neighbours;  ///< spaces whose boxes overlap its own
 };
 
 /// The work of one rank's solver, in weights, and the seconds it took.
@@ -41,8 +45,10 @@ struct SpaceLoads {
   std::vector<double> collide_s;   ///< [num_spaces]
   std::vector<SolverWork> inside;  ///< [num_spaces] work of islands that lie in one space
   std::vector<std::vector<SpacePart>> islands;  ///< parts of islands that lie in several spaces
-  double root_extra_s = 0;                      ///< root's section: search and dispatch
-  double ship_s = 0;  ///< seconds a frame for shipping a body there and back, on each of the two ranks
+  double root_extra_s = 0;                      ///< root's section, but for what the next two make of it
+  std::vector<SpaceBorder> borders;             ///< [num_spaces]; empty: nothing is near
+  double cross_s = 0;  ///< seconds a frame on root for a body of a space near one of another rank
+  double ship_s = 0;   ///< seconds a frame for shipping a body there and back, on each of the two ranks
 
   double seconds(const SolverWork& work) const;  ///< the work's time on one rank
   void scale(const SolverCosts& costs);          ///< from weights to seconds
@@ -63,6 +69,13 @@ struct PredictedLoads {
   double makespan_s() const;
 };
 
+/// The rank that solves an island of several spaces: that with most of its bodies, the lowest on a tie.
+/// `scratch` [num_ranks] is zeros before and after.
+int solver_of(std::span<const SpacePart> island, std::span<const int> owner, std::span<int> scratch);
+
+/// Is the space near one of another rank?
+bool is_near_others(const SpaceLoads& loads, std::span<const int> owner, int space);
+
 /// Predicts the loads under an ownership, `owner` [num_spaces]: an island of several ranks is solved on the
 /// rank of its largest part, and its other parts are shipped there.
 PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks);
@@ -70,19 +83,5 @@ PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner
 /// Least-squares fit of the two costs to the ranks' seconds. Where the ranks do not differ enough to tell the
 /// two costs apart, both get the same value.
 SolverCosts fit_costs(std::span<const RankSample> ranks);
-
-struct Reassignment {
-  std::vector<Move> moves;  ///< by ascending space; empty = stay
-  double makespan_before_s = 0;
-  double makespan_after_s = 0;
-};
-
-/// Local search for an ownership that makes the frame shorter, starting from the present one. It makes the
-/// best change of the ranks that take longest as long as one helps: moving a space, bringing
-/// the spaces of an island together, or else swapping two spaces, or all spaces of two ranks. Nothing moves
-/// if the predicted gain is less than half of `threshold` - 1. Deterministic: ties go to the lower space and
-/// rank.
-Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner, int num_ranks,
-                             double threshold);
 
 }  // namespace pbmpi::mpi

@@ -1,8 +1,10 @@
 #include "mpi/spaces/step/crossing_search.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/error.h"
+#include "model/events.h"
 #include "model/state_parts.h"
 #include "mpi/comm/message.h"
 
@@ -10,29 +12,53 @@ namespace pbmpi::mpi {
 
 using core::Phase;
 
+namespace {
+
+/// Where a box will be after two steps more in which its sides move outwards as they did in the last one.
+geometry::Box grown_on(const geometry::Box& now, const geometry::Box& before) {
+  geometry::Box next = now;
+  for (std::size_t k = 0; k < 3; ++k) {
+    next.min[k] -= 2 * std::max(0.0, before.min[k] - now.min[k]);
+    next.max[k] += 2 * std::max(0.0, now.max[k] - before.max[k]);
+  }
+  return next;
+}
+
+}  // namespace
+
 void CrossingSearch::own() {
+  const std::size_t num_spaces = shared_->ownership->owner.size();
+  sends_all_ = shared_->sleepers != nullptr || shared_->stepper->has_velocity_rules();
+  watched_.assign(num_spaces, sends_all_ ? 1 : 0);
   if (!shared_->is_root()) return;
-  has_poses_ = true;
-  boxes_.resize(shared_->ownership->owner.size());
-  for (std::size_t space = 0; space < boxes_.size(); ++space)
-    boxes_[space] = shared_->stepper->space_box(static_cast<int>(space));
+  note_whole_state();
+  std::vector<int> all(num_spaces);
+  std::iota(all.begin(), all.end(), 0);
+  shared_->guard([&] { boxes_ = shared_->stepper->space_boxes(all); });
+  boxes_.resize(num_spaces);
+  last_boxes_ = boxes_;
   schedule_ = RootSchedule(shared_->comm->size());
+}
+
+void CrossingSearch::note_whole_state() {
+  has_borders_ = true;
+  is_current_.assign(shared_->ownership->owner.size(), 1);
 }
 
 void CrossingSearch::search_early(std::int64_t step, core::LapTimer& timer) {
   if (!shared_->crosses || !shared_->is_root() || shared_->sleepers != nullptr) return;
   schedule_.note_own(pace_);
-  if (has_poses_) schedule_.start_all(core::now_s());
-  bool arrived = poses_have_arrived();
-  while (!arrived && schedule_.should_wait(unseen_s_)) arrived = poses_have_arrived();
+  if (has_borders_) schedule_.start_all(core::now_s());
+  bool arrived = borders_have_arrived();
+  while (!arrived && schedule_.should_wait(unseen_s_)) arrived = borders_have_arrived();
   timer.lap(Phase::wait);
   if (arrived) send_verdict(step, timer);
 }
 
-bool CrossingSearch::poses_have_arrived() {
-  if (has_poses_) return true;
+bool CrossingSearch::borders_have_arrived() {
+  if (has_borders_) return true;
   for (int rank = 1; rank < shared_->comm->size(); ++rank) {
-    if (shared_->mail->has(rank, poses_tag)) continue;
+    if (shared_->mail->has(rank, border_tag)) continue;
     unseen_s_ = core::now_s();
     return false;
   }
@@ -40,18 +66,57 @@ bool CrossingSearch::poses_have_arrived() {
 }
 
 void CrossingSearch::search(std::int64_t step, core::LapTimer& timer) {
-  if (!has_poses_) receive_poses(timer);
+  if (!has_borders_) receive_borders(step, timer);
   began_s_ = core::now_s();
-  shared_->guard([&] {
-    shared_->stepper->launch_others(step, boxes_);
-    find_contacts();
-  });
+  shared_->guard([&] { launch_others(step); });
+  timer.lap(Phase::cross_space);
+  fetch_missing(timer);
+  shared_->guard([&] { find_contacts(); });
   timer.lap(Phase::cross_space);
 }
 
+void CrossingSearch::launch_others(std::int64_t step) {
+  shared_->stepper->launch_others(step);
+  std::vector<int> changed = shared_->own_spaces();
+  for (const model::Event& event : model::events_of(shared_->stepper->model(), step)) {
+    if (event.kind == model::EventKind::launch)
+      changed.push_back(shared_->stepper->map().space_of_body(event.body));
+  }
+  if (shared_->stepper->has_velocity_rules()) {
+    changed.resize(boxes_.size());
+    std::iota(changed.begin(), changed.end(), 0);
+  }
+  std::ranges::sort(changed);
+  const std::vector<geometry::Box> boxes = shared_->stepper->space_boxes(changed);
+  for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[changed[i]] = boxes[i];
+}
+
 void CrossingSearch::find_contacts() {
-  for (const int space : shared_->own_spaces()) boxes_[space] = shared_->stepper->space_box(space);
   shared_->stepper->collide_across(shared_->ownership->owner, boxes_, contacts_);
+}
+
+void CrossingSearch::fetch_missing(core::LapTimer& timer) {
+  std::vector<char> is_missing(boxes_.size(), 0);
+  shared_->guard([&] {
+    for (const int space : shared_->stepper->near_spaces(shared_->ownership->owner, boxes_))
+      is_missing[space] = is_current_[space] == 0 ? 1 : 0;
+  });
+  std::vector<int> asked;
+  for (int rank = 1; rank < shared_->comm->size(); ++rank) {
+    const std::vector<std::int32_t> spaces = spaces_of(rank, is_missing);
+    if (spaces.empty()) continue;
+    post(Verdict::more, rank, spaces);
+    asked.push_back(rank);
+  }
+  timer.lap(Phase::cross_space);
+  for (const int rank : asked) {
+    MessageReader message(shared_->mail->take(rank, more_tag));
+    timer.lap(Phase::wait);
+    const std::vector<std::int32_t> spaces = spaces_of(rank, is_missing);
+    shared_->stepper->put_states(bodies_of(spaces), message.get<double>());
+    for (const std::int32_t space : spaces) is_current_[space] = 1;
+    timer.lap(Phase::gather);
+  }
 }
 
 bool CrossingSearch::finds_any(std::int64_t step, core::LapTimer& timer) {
@@ -59,26 +124,83 @@ bool CrossingSearch::finds_any(std::int64_t step, core::LapTimer& timer) {
     if (!has_verdict_) send_verdict(step, timer);
     return !contacts_.empty();
   }
-  MessageReader verdict(shared_->mail->take(Communicator::root, verdict_tag));
-  timer.lap(Phase::wait);
-  verdict_s_ = core::now_s();
-  shared_->mail->finish();  // returns at once: root has received all messages of the step before
-  return verdict.get_value<std::int32_t>() != 0;
+  for (;;) {
+    MessageReader message(shared_->mail->take(Communicator::root, verdict_tag));
+    timer.lap(Phase::wait);
+    const auto verdict = message.get_value<Verdict>();
+    const auto spaces = message.get<std::int32_t>();
+    if (verdict == Verdict::more) {
+      MessageWriter answer;
+      answer.put(model::body_rows(shared_->stepper->state(), bodies_of(spaces)));
+      shared_->mail->post(answer.take(), Communicator::root, more_tag);
+      timer.lap(Phase::gather);
+      continue;
+    }
+    verdict_s_ = core::now_s();
+    watched_.assign(watched_.size(), 0);
+    for (const std::int32_t space : spaces) watched_[space] = 1;
+    shared_->mail->finish();  // returns at once: root has received all messages of the step before
+    return verdict == Verdict::touching;
+  }
 }
 
 void CrossingSearch::send_verdict(std::int64_t step, core::LapTimer& timer) {
   if (shared_->sleepers == nullptr) search(step, timer);  // with sleepers the search is done
-  has_poses_ = false;
+  has_borders_ = false;
   has_verdict_ = true;
+  shared_->guard([&] { watch_next(); });
   shared_->mail->finish();  // returns at once: the ranks have received all messages of the step before
   verdict_s_ = core::now_s();
   schedule_.note_verdict(verdict_s_, verdict_s_ - began_s_);
-  for (int rank = 1; rank < shared_->comm->size(); ++rank) {
-    MessageWriter message;
-    message.put_value(static_cast<std::int32_t>(contacts_.empty() ? 0 : 1));
-    shared_->mail->post(message.take(), rank, verdict_tag);
-  }
+  for (int rank = 1; rank < shared_->comm->size(); ++rank)
+    post(contacts_.empty() ? Verdict::apart : Verdict::touching, rank, spaces_of(rank, watched_));
   timer.lap(Phase::cross_space);
+}
+
+void CrossingSearch::post(Verdict verdict, int rank, std::span<const std::int32_t> spaces) const {
+  MessageWriter message;
+  message.put_value(verdict);
+  message.put(spaces);
+  shared_->mail->post(message.take(), rank, verdict_tag);
+}
+
+void CrossingSearch::watch_next() {
+  if (!sends_all_) {
+    std::vector<geometry::Box> grown;
+    for (std::size_t space = 0; space < boxes_.size(); ++space)
+      grown.push_back(grown_on(boxes_[space], last_boxes_[space]));
+    watched_.assign(boxes_.size(), 0);
+    for (const int space : shared_->stepper->near_spaces(shared_->ownership->owner, grown))
+      watched_[space] = 1;
+  }
+  last_boxes_ = boxes_;
+}
+
+std::vector<std::int32_t> CrossingSearch::sent_spaces(int rank, std::int64_t step) const {
+  std::vector<char> sent = watched_;
+  for (const model::Event& event : model::events_of(shared_->stepper->model(), step)) {
+    if (event.kind == model::EventKind::launch) sent[shared_->stepper->map().space_of_body(event.body)] = 1;
+  }
+  return spaces_of(rank, sent);
+}
+
+std::vector<std::int32_t> CrossingSearch::spaces_of(int rank, std::span<const char> flags) const {
+  std::vector<std::int32_t> spaces;
+  for (const int space : shared_->ownership->spaces[rank]) {
+    if (flags[space] != 0) spaces.push_back(space);
+  }
+  return spaces;
+}
+
+std::vector<int> CrossingSearch::bodies_of(std::span<const std::int32_t> spaces) const {
+  std::vector<int> bodies;
+  for (const std::int32_t space : spaces) {
+    for (const int unit : shared_->stepper->map().units_of_space[space]) {
+      const std::vector<int>& of_unit = shared_->stepper->map().bodies_of_unit[unit];
+      bodies.insert(bodies.end(), of_unit.begin(), of_unit.end());
+    }
+  }
+  return bodies;
 }
 
 void CrossingSearch::note_pace(double began_s, double collided_s) {
@@ -87,7 +209,8 @@ void CrossingSearch::note_pace(double began_s, double collided_s) {
 
 std::vector<geometry::Box> CrossingSearch::own_boxes() const {
   std::vector<geometry::Box> boxes;
-  for (const int space : shared_->own_spaces()) boxes.push_back(shared_->stepper->space_box(space));
+  shared_->guard([&] { boxes = shared_->stepper->space_boxes(shared_->own_spaces()); });
+  boxes.resize(shared_->own_spaces().size());
   return boxes;
 }
 
@@ -95,43 +218,39 @@ void CrossingSearch::put_boxes(int rank, std::span<const geometry::Box> boxes) {
   for (std::size_t i = 0; i < boxes.size(); ++i) boxes_[shared_->ownership->spaces[rank][i]] = boxes[i];
 }
 
-void CrossingSearch::post_poses() {
-  const model::State& state = shared_->stepper->state();
+void CrossingSearch::post_border(std::int64_t next_step) {
   MessageWriter message;
-  message.put(model::body_rows(state, shared_->own_bodies(), model::pose_columns));
   message.put(own_boxes());
   message.put_value(pace_);
-  if (shared_->has_fast_bodies) {
-    std::vector<int> fast;
-    shared_->guard([&] { fast = shared_->stepper->fast_bodies(); });
-    message.put(fast);
-    message.put(model::body_rows(state, fast));
-  }
-  shared_->mail->post(message.take(), Communicator::root, poses_tag);
+  const std::vector<int> bodies = bodies_of(sent_spaces(shared_->comm->rank(), next_step));
+  message.put(model::body_rows(shared_->stepper->state(), bodies));
+  shared_->mail->post(message.take(), Communicator::root, border_tag);
 }
 
-void CrossingSearch::receive_poses(core::LapTimer& timer) {
+void CrossingSearch::receive_borders(std::int64_t step, core::LapTimer& timer) {
+  is_current_.assign(is_current_.size(), 0);
+  for (const int space : shared_->own_spaces()) is_current_[space] = 1;
   for (int rank = 1; rank < shared_->comm->size(); ++rank) {
-    MessageReader message(shared_->mail->take(rank, poses_tag));
+    MessageReader message(shared_->mail->take(rank, border_tag));
     timer.lap(Phase::wait);
-    shared_->stepper->put_poses(shared_->ownership->bodies[rank], message.get<double>());
     put_boxes(rank, message.get<geometry::Box>());
     schedule_.note_arrival(rank, unseen_s_, core::now_s(), message.get_value<StepPace>());
-    if (shared_->has_fast_bodies) {
-      const std::span<const int> fast = message.get<int>();
-      shared_->stepper->put_states(fast, message.get<double>());
-    }
+    const std::vector<std::int32_t> spaces = sent_spaces(rank, step);
+    shared_->stepper->put_states(bodies_of(spaces), message.get<double>());
+    for (const std::int32_t space : spaces) is_current_[space] = 1;
     timer.lap(Phase::gather);
   }
-  has_poses_ = true;
+  has_borders_ = true;
 }
 
-void CrossingSearch::skip_step(core::LapTimer& timer) {
+void CrossingSearch::skip_step(std::int64_t step, core::LapTimer& timer) {
   contacts_.clear();
-  if (shared_->crosses && shared_->is_root() && !has_poses_) receive_poses(timer);
+  if (shared_->crosses && shared_->is_root() && !has_borders_) receive_borders(step, timer);
 }
 
 void CrossingSearch::require_apart() {
+  const std::vector<geometry::Box> boxes = own_boxes();
+  put_boxes(Communicator::root, boxes);
   find_contacts();
   if (contacts_.empty()) return;
   const model::Model& model = shared_->stepper->model();

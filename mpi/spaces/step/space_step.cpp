@@ -122,7 +122,6 @@ SpaceStep::SpaceStep(const Communicator& comm, stepping::SpaceStepper& stepper, 
 void SpaceStep::own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step) {
   shared_.ownership = ownership;
   const effects::StepPlan plan(shared_.stepper->model());
-  shared_.has_fast_bodies = plan.has(effects::EffectId::fast_bodies);
   shared_.joints_break = plan.has(effects::EffectId::breakable_joints);
   shared_.remembers = shared_.stepper->remembers();
   shared_.records = shared_.stepper->shows_contacts();
@@ -137,7 +136,7 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   islands_.start_step();
   crossing_.start_step();
   shared_.guard([&] { shared_.stepper->fire_events(step); });
-  if (sleep_.sleeps_through(step)) return sleep_through(last, times);
+  if (sleep_.sleeps_through(step)) return sleep_through(step, last, times);
   center_.post();
   crossing_.search_early(step, timer);
   const double began_s = core::now_s();
@@ -155,7 +154,7 @@ void SpaceStep::run(std::int64_t step, bool last, core::PhaseTimes& times) {
   if (last) {
     report_frame(times);
   } else if (shared_.crosses && !shared_.is_root()) {
-    crossing_.post_poses();
+    crossing_.post_border(step + 1);
     after.lap(Phase::gather);
   }
 }
@@ -172,11 +171,11 @@ void SpaceStep::exchange(std::int64_t step, core::LapTimer& timer) {
 }
 
 /// A step in which all bodies sleep: nothing moves, and only the account of a frame is sent.
-void SpaceStep::sleep_through(bool last, core::PhaseTimes& times) {
+void SpaceStep::sleep_through(std::int64_t step, bool last, core::PhaseTimes& times) {
   core::LapTimer timer(times);
   work_.contacts.clear();
   work_.units = shared_.own_units();
-  crossing_.skip_step(timer);
+  crossing_.skip_step(step, timer);
   if (last) report_frame(times);
 }
 

@@ -73,9 +73,9 @@ class FieldCenter {
 /// On a single rank, and where nothing can cross (all bodies on one rank, or spaces that the scene says never
 /// meet), a step sends no message and builds no island.
 ///
-/// Otherwise every rank first handles events and collides in its own spaces. Root, which has the poses and
-/// boxes that the ranks sent at the end of the previous step, finds the contacts across spaces (before its
-/// own collision if all poses have arrived by then) and tells the ranks whether there are any
+/// Otherwise every rank first handles events and collides in its own spaces. Root, which has what the
+/// ranks sent at the end of the previous step, finds the contacts across spaces (before its
+/// own collision if all of that has arrived by then) and tells the ranks whether there are any
 /// (CrossingSearch). If so, each rank forms its islands from joints and own contacts (RankIslands) and
 /// reports them; root joins them and orders the ranks which to ship, which to expect, and which contacts
 /// across spaces to solve (IslandDispatch); islands are shipped, and shipped back when they are solved
@@ -100,14 +100,16 @@ class SpaceStep {
   /// `last`: the last step of a frame, after which root has all rows of the state, and findings().
   void run(std::int64_t step, bool last, core::PhaseTimes& times);
 
-  const FrameFindings& findings() const { return report_.findings(); }  ///< on root
+  // On root.
+  const FrameFindings& findings() const { return report_.findings(); }
+  std::span<const geometry::Box> boxes() const { return crossing_.boxes(); }  ///< [num_spaces]
   /// The contacts that this rank solved in the last step, in canonical order.
   std::span<const model::Contact> contacts() const { return work_.contacts; }
   core::Traffic take_traffic() { return shared_.mail ? shared_.mail->take_traffic() : core::Traffic{}; }
 
  private:
   void exchange(std::int64_t step, core::LapTimer& timer);
-  void sleep_through(bool last, core::PhaseTimes& times);
+  void sleep_through(std::int64_t step, bool last, core::PhaseTimes& times);
   void report_frame(core::PhaseTimes& times);
 
   StepContext shared_;

@@ -21,14 +21,15 @@ namespace pbmpi::mpi {
 
 /// Tags of the messages of a step, one for each kind of message.
 enum StepTag : int {
-  poses_tag = 1,  ///< CrossingSearch: to root
-  verdict_tag,    ///< CrossingSearch: from root
-  report_tag,     ///< IslandDispatch: to root
-  orders_tag,     ///< IslandDispatch: from root
-  ship_tag,       ///< IslandShipping: to the rank that solves
-  back_tag,       ///< IslandShipping: to the rank that owns
-  frame_tag,      ///< FrameReport: to root
-  center_tag,     ///< FieldCenter: from the owner of the followed body to all
+  border_tag = 1,  ///< CrossingSearch: to root, at the end of a step
+  more_tag,        ///< CrossingSearch: to root, what it asks for in a step
+  verdict_tag,     ///< CrossingSearch: from root
+  report_tag,      ///< IslandDispatch: to root
+  orders_tag,      ///< IslandDispatch: from root
+  ship_tag,        ///< IslandShipping: to the rank that solves
+  back_tag,        ///< IslandShipping: to the rank that owns
+  frame_tag,       ///< FrameReport: to root
+  center_tag,      ///< FieldCenter: from the owner of the followed body to all
 };
 
 /// Owned by SpaceStep, borrowed by its parts.
@@ -40,11 +41,10 @@ struct StepContext {
   effects::FieldOfInterest* field = nullptr;   ///< null without the effect "field_of_interest"
   std::unique_ptr<Mail> mail;                  ///< none for a single rank, which sends nothing
   std::optional<SpaceOwnership> ownership;     ///< set by SpaceStep::own()
-  bool crosses = false;          ///< Can bodies of two ranks touch? Otherwise steps exchange no islands.
-  bool has_fast_bodies = false;  ///< the effect "fast_bodies"
-  bool joints_break = false;     ///< the effect "breakable_joints"
-  bool remembers = false;        ///< a step hands on forces to the next
-  bool records = false;          ///< the frame's last step is recorded with its contacts and forces
+  bool crosses = false;       ///< Can bodies of two ranks touch? Otherwise steps exchange no islands.
+  bool joints_break = false;  ///< the effect "breakable_joints"
+  bool remembers = false;     ///< a step hands on forces to the next
+  bool records = false;       ///< the frame's last step is recorded with its contacts and forces
 
   bool is_root() const { return comm->is_root(); }
   const std::vector<int>& own_spaces() const { return ownership->spaces[comm->rank()]; }

@@ -17,6 +17,7 @@
 #include "io/run/run_file.h"
 #include "model/names.h"
 #include "mpi/balance/partition.h"
+#include "mpi/spaces/plan/initial_owners.h"
 #include "mpi/spaces/plan/rank_groups.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "stepping/frame.h"
@@ -107,7 +108,7 @@ void print_distribution(std::ostream& out, const Census& census, int first_world
 /// A world's spaces over `num_ranks` ranks from `first_rank` on.
 void print_spaces(std::ostream& out, const model::Model& model, int first_rank, int num_ranks) {
   const model::SpaceMap map = model::make_space_map(model);
-  const mpi::SpaceOwnership ownership(map, mpi::initial_owners(map, num_ranks), num_ranks);
+  const mpi::SpaceOwnership ownership(map, mpi::initial_owners(model, map, num_ranks), num_ranks);
   for (int rank = 0; rank < num_ranks; ++rank) {
     const auto at = static_cast<std::size_t>(rank);
     out << "  rank " << first_rank + rank << ": ";

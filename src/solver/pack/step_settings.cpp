@@ -88,13 +88,6 @@ StepParameters step_parameters(const stepping::StepperSettings& settings, std::i
   return parameters;
 }
 
-std::span<const Event> events_of(const model::Model& model, std::int64_t step) {
-  // Not equal_range(), whose result clang 14 cannot compile with g++ 12's library.
-  const auto first = std::ranges::lower_bound(model.events, step, {}, &Event::step);
-  const auto end = std::ranges::upper_bound(model.events, step, {}, &Event::step);
-  return {first, end};
-}
-
 void apply_setting(const Event& event, int world, Pack& pack) {
   if (event.kind == EventKind::motor) pack.set_motor(world, event.joint, event.axis, event.motor);
   if (event.kind == EventKind::steer) pack.set_limit(world, event.joint, 0, {event.angle, event.angle});

@@ -53,9 +53,6 @@ Spring joint_turn_spring(const stepping::StepperSettings& settings);
 /// The parameters of a step of a run.
 StepParameters step_parameters(const stepping::StepperSettings& settings, std::int64_t step);
 
-/// The events of a step, in the model's order.
-std::span<const model::Event> events_of(const model::Model& model, std::int64_t step);
-
 /// Puts the joint setting of an event into the pack; a launch has none.
 void apply_setting(const model::Event& event, int world, Pack& pack);
 

@@ -55,7 +55,6 @@ FineIslands::FineIslands(const model::Model& model, const stepping::StepperSetti
   }
   static_tree_.set(boxes);
   state_ = model::initial_state(model);
-  for (int body = 0; body < model.num_bodies(); ++body) stop(body);
 }
 
 bool FineIslands::can_be(const stepping::StepperSettings& settings) {
@@ -144,13 +143,11 @@ void FineIslands::add_fast(std::span<const int> bodies, double piece_s,
     fast_.emplace(*model_);
     fast_->set_broken(broken_in_);
   }
+  fast_->choose(bodies);
   if (!fast_->look(state_, piece_s, num_pieces)) return;
-  std::vector<char> is_here(model_->bodies.size(), 0);
-  for (const int body : bodies) is_here[static_cast<std::size_t>(body)] = 1;
   const auto accepts = [&](int geom, int other) {
-    const int body = model_->geoms[static_cast<std::size_t>(other)].body;
-    return body == model::no_body || (is_here[static_cast<std::size_t>(body)] != 0 &&
-                                      together(model_->geoms[static_cast<std::size_t>(geom)].body, body));
+    return together(model_->geoms[static_cast<std::size_t>(geom)].body,
+                    model_->geoms[static_cast<std::size_t>(other)].body);
   };
   fast_->add(state_, accepts, contacts);
 }
@@ -169,12 +166,6 @@ void FineIslands::collide(Pack& pack, int world, std::span<const int> bodies, do
   std::ranges::sort(pairs_);
   pack.collide_pairs(world, pairs_, contacts);
   add_fast(bodies, piece_s, contacts);
-  for (const int body : bodies) stop(body);
-}
-
-void FineIslands::stop(int body) {
-  state_.velocity[static_cast<std::size_t>(body)].setZero();
-  state_.angular_velocity[static_cast<std::size_t>(body)].setZero();
 }
 
 }  // namespace pbmpi::solver

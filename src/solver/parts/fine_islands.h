@@ -67,8 +67,6 @@ class FineIslands {
   void add_pair(int geom, int other);
   void add_fast(std::span<const int> bodies, double piece_s, std::vector<model::Contact>& contacts);
   bool together(int body, int other) const;
-  /// Takes the body's velocities out of state_.
-  void stop(int body);
 
   const model::Model* model_;
   double most_approach_m_, margin_m_;
@@ -88,7 +86,7 @@ class FineIslands {
   std::optional<effects::FastBodies> fast_;  ///< none before a body is fast in a piece
   std::vector<int> pieces_, island_;         ///< [num_bodies] an island is its lowest body
   // Scratch of collide().
-  model::State state_;  ///< velocities are 0 between calls: other bodies are not fast
+  model::State state_;
   std::vector<GeomBox> boxes_;
   std::vector<model::GeomPair> pairs_;
 };

@@ -48,6 +48,15 @@ bool CrossBroadPhase::find_neighbours(std::span<const int> owner, std::span<cons
   return std::ranges::any_of(neighbours_, [](const std::vector<int>& spaces) { return !spaces.empty(); });
 }
 
+std::vector<int> CrossBroadPhase::near_spaces(std::span<const int> owner, std::span<const Box> boxes) {
+  std::vector<int> spaces;
+  find_neighbours(owner, boxes);
+  for (std::size_t space = 0; space < boxes.size(); ++space) {
+    if (!neighbours_[space].empty()) spaces.push_back(static_cast<int>(space));
+  }
+  return spaces;
+}
+
 void CrossBroadPhase::enter(int space, int owner, std::span<const Box> boxes,
                             std::span<const model::BodyPose> poses) {
   const std::vector<int>& neighbours = neighbours_[space];

@@ -26,6 +26,9 @@ class CrossBroadPhase {
   void find_pairs(std::span<const int> owner, std::span<const geometry::Box> boxes,
                   std::span<const model::BodyPose> poses, std::vector<model::GeomPair>& pairs);
 
+  /// The spaces whose boxes overlap one of another owner's space, ascending.
+  std::vector<int> near_spaces(std::span<const int> owner, std::span<const geometry::Box> boxes);
+
  private:
   /// A geom that reaches into the box of another owner's space.
   struct Entry {

@@ -28,16 +28,6 @@ void PackedState::take_in(std::span<const int> bodies) {
   }
 }
 
-void PackedState::put_poses(std::span<const int> bodies, std::span<const double> rows, Velocity velocity) {
-  model::put_body_rows(rows, bodies, state_, model::pose_columns);
-  for (const int body : bodies) {
-    if (velocity == Velocity::kept) continue;
-    state_.velocity[body].setZero();
-    state_.angular_velocity[body].setZero();
-  }
-  take_in(bodies);
-}
-
 void PackedState::put_states(std::span<const int> bodies, std::span<const double> rows) {
   model::put_body_rows(rows, bodies, state_);
   take_in(bodies);

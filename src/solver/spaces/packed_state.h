@@ -27,9 +27,6 @@ class PackedState {
 
   /// `rows` as in stepping::SpaceStepper.
   void put_states(std::span<const int> bodies, std::span<const double> rows);
-  /// Do velocities stay as they are, or become zero?
-  enum class Velocity { kept, zero };
-  void put_poses(std::span<const int> bodies, std::span<const double> rows, Velocity velocity);
   /// Notes that the state's velocity of a body differs from the pack's.
   void touch(int body) { stale_[static_cast<std::size_t>(body)] = 1; }
   /// Launches through the pack and back, so that the numbers are rounded to the pack's number type.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "effects/step_rules.h"
+#include "model/events.h"
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/simd.h"
@@ -41,7 +42,6 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   void put_states(std::span<const int> bodies, std::span<const double> rows) override {
     packed_.put_states(bodies, rows);
   }
-  void put_poses(std::span<const int> bodies, std::span<const double> rows) override;
   std::vector<std::int32_t> broken_rows(std::span<const int> units) const override;
   void put_broken(std::span<const int> units, std::span<const std::int32_t> rows) override;
   bool remembers() const override { return solver::remembers(settings_); }
@@ -51,11 +51,14 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
   void put_memory(std::span<const int> units, std::span<const double> rows) override {
     UnitMemory{map_, articulations_}.put(units, rows, model_->joints.size(), packed_.state().memory);
   }
-  std::vector<int> fast_bodies() override;
   void fire_events(std::int64_t step) override;
-  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override;
+  void launch_others(std::int64_t step) override;
+  bool has_velocity_rules() const override { return rules_.changes_velocities(); }
   void collide(std::vector<Contact>& contacts) override;
-  geometry::Box space_box(int space) const override;
+  std::vector<geometry::Box> space_boxes(std::span<const int> spaces) override;
+  std::vector<int> near_spaces(std::span<const int> owner, std::span<const geometry::Box> boxes) override {
+    return cross_.near_spaces(owner, boxes);
+  }
   void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
                       std::vector<Contact>& contacts) override;
   void solve(std::span<const int> units, std::span<const Contact> contacts, std::int64_t step,
@@ -69,7 +72,7 @@ class SorSpaceStepper final : public stepping::SpaceStepper {
     return settings_.simd == stepping::Simd::automatic ? best_simd() : settings_.simd;
   }
   std::vector<PackedWorld> packed_own_first() const;
-  std::vector<char> own_mask() const;
+  std::vector<int> bodies_of(std::span<const int> spaces) const;  ///< with a geom
   bool is_own(int body) const { return is_own_[map_.space_of_body(body)] != 0; }
   void activate(std::span<const int> units);
   /// Finds which islands get different shares of the step.
@@ -141,12 +144,6 @@ std::vector<PackedWorld> SorSpaceStepper::packed_own_first() const {
   return packed;
 }
 
-std::vector<char> SorSpaceStepper::own_mask() const {
-  std::vector<char> mask(model_->bodies.size(), 0);
-  for (const int body : own_bodies_) mask[body] = 1;
-  return mask;
-}
-
 void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state, std::int64_t step) {
   is_own_.assign(static_cast<std::size_t>(map_.num_spaces()), 0);
   for (const int space : spaces) is_own_[space] = 1;
@@ -155,7 +152,7 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
   for (int body = 0; body < model_->num_bodies(); ++body)
     (is_own(body) ? own_bodies_ : other_bodies_).push_back(body);
   launched_step_.reset();
-  if (fast_bodies_) fast_bodies_->own(own_mask());
+  if (fast_bodies_) fast_bodies_->own(own_bodies_);
   pack_ = make_pack(packed_own_first(), settings_.simd, settings_.precision);
   packed_.start(state, *pack_);
   start_memory(remembers(), *model_, packed_.state().memory);
@@ -165,15 +162,6 @@ void SorSpaceStepper::own(std::span<const int> spaces, const model::State& state
   pack_->set_active(0, active_.bodies());
   apply_settings_before(*model_, step, 0, *pack_);
   show_broken();
-}
-
-void SorSpaceStepper::put_poses(std::span<const int> bodies, std::span<const double> rows) {
-  // Root is given the states of fast bodies too.
-  packed_.put_poses(bodies, rows, fast_bodies_ ? PackedState::Velocity::zero : PackedState::Velocity::kept);
-}
-
-std::vector<int> SorSpaceStepper::fast_bodies() {
-  return fast_bodies_ ? fast_bodies_->find_own(state()) : std::vector<int>();
 }
 
 /// Sleeping bodies have other velocities than the pack knows.
@@ -239,25 +227,23 @@ void SorSpaceStepper::fire_events(std::int64_t step) {
   fast_own_bodies_ = bodies_inside_ = 0;  // while all sleep nothing collides, and there is no solve()
   show_sleepers();
   if (rules_.sleepers() != nullptr) rules_.sleepers()->wake_called(step);
-  for (const Event& event : events_of(*model_, step)) {
+  for (const Event& event : model::events_of(*model_, step)) {
     apply_setting(event, 0, *pack_);
     if (event.kind != EventKind::launch) continue;
     if (is_own(event.body)) packed_.launch(event, *pack_);
     pack_->forget(0, event.body);
-    model::forget(*model_, event.body, packed_.state().memory);
+    if (is_own(event.body)) model::forget(*model_, event.body, packed_.state().memory);
   }
   change_velocities(true);
 }
 
 /// Acts once a step: a second launch would undo the rules' changes of the first launch's velocity.
-void SorSpaceStepper::launch_others(std::int64_t step, std::span<geometry::Box> boxes) {
+void SorSpaceStepper::launch_others(std::int64_t step) {
   if (launched_step_ == step) return;
   launched_step_ = step;
-  for (const Event& event : events_of(*model_, step)) {
+  for (const Event& event : model::events_of(*model_, step)) {
     if (event.kind != EventKind::launch || is_own(event.body)) continue;
     packed_.launch(event, *pack_);
-    boxes[map_.space_of_body(event.body)].include(
-        bodies_.ball_box(event.body, packed_.poses()[static_cast<std::size_t>(event.body)]));
   }
   change_velocities(false);
 }
@@ -282,8 +268,20 @@ void SorSpaceStepper::collide_pairs(std::vector<Contact>& contacts) {
   pack_->collide_pairs(0, pairs_, contacts);
 }
 
-geometry::Box SorSpaceStepper::space_box(int space) const {
-  return bodies_.space_box(space, packed_.poses());
+std::vector<geometry::Box> SorSpaceStepper::space_boxes(std::span<const int> spaces) {
+  std::vector<geometry::Box> all(static_cast<std::size_t>(map_.num_spaces()));
+  for (const int space : spaces) all[space] = bodies_.space_box(space, packed_.poses());
+  if (fast_bodies_) fast_bodies_->widen(state(), bodies_of(spaces), all);
+  std::vector<geometry::Box> boxes;
+  for (const int space : spaces) boxes.push_back(all[space]);
+  return boxes;
+}
+
+std::vector<int> SorSpaceStepper::bodies_of(std::span<const int> spaces) const {
+  std::vector<int> bodies;
+  for (const int space : spaces)
+    bodies.insert(bodies.end(), bodies_.bodies(space).begin(), bodies_.bodies(space).end());
+  return bodies;
 }
 
 void SorSpaceStepper::collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
@@ -295,7 +293,7 @@ void SorSpaceStepper::collide_across(std::span<const int> owner, std::span<const
     return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
   });
   collide_pairs(contacts);
-  if (fast_bodies_) fast_bodies_->add_across(state(), owner, contacts);
+  if (fast_bodies_) fast_bodies_->add_across(state(), bodies_of(near_spaces(owner, boxes)), owner, contacts);
 }
 
 void SorSpaceStepper::activate(std::span<const int> units) {
@@ -323,14 +321,16 @@ void SorSpaceStepper::part(std::span<const Contact> contacts, const StepParamete
   parted_.begin(std::span(&world, 1), parameters);
 }
 
-/// Forces of units that are solved elsewhere (where contacts belong whose first body is theirs), or that
-/// sleep, stay as they are.
+/// Forces of own units and guests that sleep stay as they are. Those of own units that are solved elsewhere
+/// come back with them, and others' are none of this rank's (a contact belongs to the unit of its first
+/// body).
 void SorSpaceStepper::recall(std::span<const Contact> contacts) {
   const auto sleeps = [&](int body) { return body != model::no_body && !is_awake(body); };
   recall_.recall(
       contacts, state().memory.contacts, [&](int body) { return state().position[body]; },
       [&](const model::ContactForce& old) {
-        return !active_.contains(map_.unit_of_body[old.body_a]) || sleeps(old.body_a) || sleeps(old.body_b);
+        const bool belongs_here = is_own(old.body_a) || active_.contains(map_.unit_of_body[old.body_a]);
+        return belongs_here && (sleeps(old.body_a) || sleeps(old.body_b));
       });
 }
 

@@ -35,6 +35,41 @@ SpaceRun expect_whole(const SharedModel& model, const WorldRunSettings& settings
   return run;
 }
 
+/// Expects of no space that it will be near others, so that root has to ask for those that are.
+class Unexpecting final : public testing_support::WrappedSpaceStepper {
+ public:
+  using WrappedSpaceStepper::WrappedSpaceStepper;
+  std::vector<int> near_spaces(std::span<const int> owner, std::span<const geometry::Box> boxes) override {
+    // CrossingSearch asks twice a step: what is near now, and what will be.
+    is_about_now_ = !is_about_now_;
+    std::vector<int> near = WrappedSpaceStepper::near_spaces(owner, boxes);
+    num_near_now_ += is_about_now_ ? std::ssize(near) : 0;
+    return is_about_now_ ? near : std::vector<int>();
+  }
+  std::int64_t num_near_now() const { return num_near_now_; }
+
+ private:
+  bool is_about_now_ = false;
+  std::int64_t num_near_now_ = 0;
+};
+
+TEST(SpaceDriver, asks_in_a_step_for_what_it_did_not_expect_to_be_near) {
+  for (const SharedModel& model : {share(neighbours()), share(testing_support::shoot_out())}) {
+    Unexpecting stepper(testing_support::make_space_stepper(model));
+    SpaceDriver driver(world(), stepper, space_settings());
+    EXPECT_EQ(driver.run().state_hash, whole_hash(model));
+    EXPECT_TRUE(stepper.num_near_now() > 20 || !world().is_root() || world().size() == 1);
+  }
+}
+
+TEST(SpaceDriver, has_the_bits_of_the_undecomposed_world_with_approaches) {
+  const stepping::StepperSettings soft = default_settings(stepping::StepperKind::sor, stepping::Law::soft);
+  for (const SharedModel& model : {share(neighbours()), share(testing_support::shoot_out())}) {
+    const SpaceRun run = run_spaces(world(), model, space_settings(), soft, Oracle::none);
+    EXPECT_EQ(run.result.state_hash, whole_hash(model, space_settings(), soft));
+  }
+}
+
 TEST(SpaceDriver, has_the_bits_of_the_undecomposed_world) {
   const SpaceRun run = expect_whole(share(neighbours()), space_settings(40));
   EXPECT_TRUE(run.contacts_checked > 1000 || !world().is_root()) << "the scene must have contacts to find";

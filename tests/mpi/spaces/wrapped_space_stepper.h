@@ -25,16 +25,15 @@ class WrappedSpaceStepper : public stepping::SpaceStepper {
   void put_states(std::span<const int> bodies, std::span<const double> rows) override {
     inner_->put_states(bodies, rows);
   }
-  void put_poses(std::span<const int> bodies, std::span<const double> rows) override {
-    inner_->put_poses(bodies, rows);
-  }
-  std::vector<int> fast_bodies() override { return inner_->fast_bodies(); }
   void fire_events(std::int64_t step) override { inner_->fire_events(step); }
-  void launch_others(std::int64_t step, std::span<geometry::Box> boxes) override {
-    inner_->launch_others(step, boxes);
-  }
+  void launch_others(std::int64_t step) override { inner_->launch_others(step); }
   void collide(std::vector<model::Contact>& contacts) override { inner_->collide(contacts); }
-  geometry::Box space_box(int space) const override { return inner_->space_box(space); }
+  std::vector<geometry::Box> space_boxes(std::span<const int> spaces) override {
+    return inner_->space_boxes(spaces);
+  }
+  std::vector<int> near_spaces(std::span<const int> owner, std::span<const geometry::Box> boxes) override {
+    return inner_->near_spaces(owner, boxes);
+  }
   void collide_across(std::span<const int> owner, std::span<const geometry::Box> boxes,
                       std::vector<model::Contact>& contacts) override {
     inner_->collide_across(owner, boxes, contacts);
