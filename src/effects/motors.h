@@ -1,11 +1,21 @@
-/// What drives the axes of joints, from step to step.
+/// The events of a step, and what drives the axes of joints by them.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 
 #include "model/model.h"
 
 namespace pbmpi::effects {
+
+/// The events of a step, in the model's order.
+inline std::span<const model::Event> events_of(const model::Model& model, std::int64_t step) {
+  // Not equal_range(), whose result clang 14 cannot compile with g++ 12's library.
+  const auto first = std::ranges::lower_bound(model.events, step, {}, &model::Event::step);
+  const auto end = std::ranges::upper_bound(model.events, step, {}, &model::Event::step);
+  return {first, end};
+}
 
 /// Does the event replace the motor of this axis?
 inline bool sets_motor(const model::Event& event, int joint, int axis) {

@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "core/error.h"
-#include "model/events.h"
+#include "effects/motors.h"
 #include "model/state_parts.h"
 #include "mpi/comm/message.h"
 
@@ -78,7 +78,7 @@ void CrossingSearch::search(std::int64_t step, core::LapTimer& timer) {
 void CrossingSearch::launch_others(std::int64_t step) {
   shared_->stepper->launch_others(step);
   std::vector<int> changed = shared_->own_spaces();
-  for (const model::Event& event : model::events_of(shared_->stepper->model(), step)) {
+  for (const model::Event& event : effects::events_of(shared_->stepper->model(), step)) {
     if (event.kind == model::EventKind::launch)
       changed.push_back(shared_->stepper->map().space_of_body(event.body));
   }
@@ -178,7 +178,7 @@ void CrossingSearch::watch_next() {
 
 std::vector<std::int32_t> CrossingSearch::sent_spaces(int rank, std::int64_t step) const {
   std::vector<char> sent = watched_;
-  for (const model::Event& event : model::events_of(shared_->stepper->model(), step)) {
+  for (const model::Event& event : effects::events_of(shared_->stepper->model(), step)) {
     if (event.kind == model::EventKind::launch) sent[shared_->stepper->map().space_of_body(event.body)] = 1;
   }
   return spaces_of(rank, sent);

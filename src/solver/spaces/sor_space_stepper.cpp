@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "effects/motors.h"
 #include "effects/step_rules.h"
-#include "model/events.h"
 #include "solver/contacts/contact_recall.h"
 #include "solver/layout/articulation.h"
 #include "solver/pack/simd.h"
@@ -227,7 +227,7 @@ void SorSpaceStepper::fire_events(std::int64_t step) {
   fast_own_bodies_ = bodies_inside_ = 0;  // while all sleep nothing collides, and there is no solve()
   show_sleepers();
   if (rules_.sleepers() != nullptr) rules_.sleepers()->wake_called(step);
-  for (const Event& event : model::events_of(*model_, step)) {
+  for (const Event& event : effects::events_of(*model_, step)) {
     apply_setting(event, 0, *pack_);
     if (event.kind != EventKind::launch) continue;
     if (is_own(event.body)) packed_.launch(event, *pack_);
@@ -241,7 +241,7 @@ void SorSpaceStepper::fire_events(std::int64_t step) {
 void SorSpaceStepper::launch_others(std::int64_t step) {
   if (launched_step_ == step) return;
   launched_step_ = step;
-  for (const Event& event : model::events_of(*model_, step)) {
+  for (const Event& event : effects::events_of(*model_, step)) {
     if (event.kind != EventKind::launch || is_own(event.body)) continue;
     packed_.launch(event, *pack_);
   }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "model/events.h"
+#include "effects/motors.h"
 #include "solver/pack/step_settings.h"
 #include "stepping/observable_table.h"
 
@@ -24,7 +24,7 @@ class SorWorld::InPack final : public effects::RuledWorld {
         may_be_fast_(may_be_fast) {}
 
   void fire_events(std::int64_t step) override {
-    for (const model::Event& event : model::events_of(*world_.model_, step)) {
+    for (const model::Event& event : effects::events_of(*world_.model_, step)) {
       apply_setting(event, index_, pack_);
       if (event.kind != model::EventKind::launch) continue;
       pack_.launch(index_, event);
