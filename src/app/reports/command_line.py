@@ -147,7 +147,7 @@ def parse(command, words):
 def require_separate(options):
     """A file that is written is neither read nor written a second time."""
     given = [("the file", name) for name in options.files]
-    given += [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in ("config", "hard_cases", "instructions_from", *WRITTEN)
+    given += [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in ("config", "hard_cases", *WRITTEN)
               if getattr(options, name, None) is not None]
     for place, (option, path) in enumerate(given):
         require(path != "", f"{option}: the file name is empty; name a file")

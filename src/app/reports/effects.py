@@ -5,31 +5,20 @@ import math
 from reports import charts, errors, page
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse
 from reports.document import MARKDOWN, PAGE, TEXT, Chart, Column, Report, Section, Table
-from reports.files import in_order_of, read_study, require
+from reports.files import in_order_of, read_study
 from reports.words import NO_NUMBER, percent, plural, stepper_in
-
-# Columns in which two studies must agree before one can take the other's counts, and those of the counts.
-SETTINGS = ("scene", "kind", "effect", "stepper", "precision", "iterations", "dt", "solver_seed", "steps_per_frame", "worlds", "warmup", "frames")
-STATES, COUNTS = ("hash_baseline", "hash_variant"), ("instructions_with", "instructions_without")
-
-
-def add_options(group):
-    add_scene_option(group)
-    group.add_argument("--instructions-from", metavar="FILE", help="take the counts of instructions from this study of the same cases, which counted "
-                       "them")
-
 
 COMMAND = Command("effects", "Shows what each effect costs: the file of pbstudy effects. The word effects may be left out.",
                   "effects.h5 [options]", page="share of the step and error if left out, effect by scene",
                   markdown="print a table a stepper instead: share of the step [%%] and defect without the effect, in brackets what demanding "
-                  "it costs", csv="all cases as comma-separated values", add_options=add_options)
+                  "it costs", csv="all cases as comma-separated values", add_options=add_scene_option)
 
 
 class Effect:
     """A row of /cases: an effect that was left out, or demanded, and what that changed. `kind` floor: another solver seed alone."""
 
-    def __init__(self, row, counted):
-        self.row, self.counted = row, counted
+    def __init__(self, row):
+        self.row = row
         self.name, self.kind, self.reason = row.effect, row.kind, row.reason
         self.same_bits = None if row.same_bits < 0 else row.same_bits == 1  # None: it was not measured
         self.defect, self.drift = errors.read(row, "defect"), errors.read(row, "drift")
@@ -45,13 +34,6 @@ class Effect:
     @property
     def share(self):
         return self.row.time_share
-
-    def instruction_share(self):
-        """NaN where nothing was counted."""
-        if not self.counted:
-            return math.nan
-        with_effect, without = self.row.instructions_with, self.row.instructions_without
-        return (with_effect - without) / with_effect if with_effect else math.nan
 
     def note(self):
         if not self.measured:
@@ -90,38 +72,12 @@ class Scene:
 
 
 def scenes_of(study, names):
-    counted = instructions_by(study) != "none"
     scenes = {}
     for row in study.rows():
         stepper = stepper_in(row.setting)
         scene = scenes.setdefault((row.scene, stepper), Scene(row.scene, stepper))
-        (scene.floor if row.kind == "floor" else scene.effects).append(Effect(row, counted))
+        (scene.floor if row.kind == "floor" else scene.effects).append(Effect(row))
     return in_order_of(names, list(scenes.values()), lambda scene: scene.name)
-
-
-def take_counts(study, path):
-    """Gives a study the counts of instructions of another. Raises BadInput for one that has none, or is of other cases or states."""
-    other = read_study(path, "effects")
-    cases, theirs = study.tables["cases"], other.tables["cases"]
-    require(all(name in theirs for name in COUNTS), f"{path}: it has no column instructions_with; jobs/effects.sh --instructions counts them")
-    for name in SETTINGS:
-        require(cases[name] == theirs[name], f"{path}: its cases are not those of {study.path}, they differ in {name}; give both the same options")
-    for name in STATES:
-        require(cases[name] == theirs[name], f"{path}: its states are not those of {study.path}, so that its counts are of something else; count with "
-                "the same build")
-    cases.update({name: theirs[name] for name in COUNTS})
-    study.parameters["instructions_by"] = instructions_by(other)
-
-
-def instructions_by(study):
-    return study.parameters.get("instructions_by", "none")
-
-
-def instructions_text(study):
-    by = instructions_by(study)
-    if by == "none":
-        return "instructions: not counted, the machine gave no counter (jobs/effects.sh --instructions counts them)"
-    return f"instructions: counted by {by}"
 
 
 def millimetres(metres):
@@ -169,7 +125,6 @@ COLUMNS = (Column("effect", lambda one: one.name),
            Column("cost us", if_measured(lambda one: f"{1e6 * one.row.time_cost:.2f}")),
            Column("of the step", if_measured(lambda one: percent(one.share))),
            Column("[p10, p90]", if_measured(lambda one: f"[{percent(one.row.time_share_p10)}, {percent(one.row.time_share_p90)}]")),
-           Column("instr.", if_measured(lambda one: percent(one.instruction_share()))),
            Column("defect mm", error_cell("defect")), Column("drift mm", error_cell("drift")),
            Column("bodies by drift", lambda one: errors.bands_text(one.drift["body_position"]) if one.measured and not one.same_bits else ""),
            Column("", Effect.note))
@@ -207,12 +162,7 @@ def defect_mm(one):
     return 1e3 * one.defect["body_position"].rms if one.measured and not one.same_bits else None
 
 
-def counted_share(one):
-    share = one.instruction_share()
-    return 100 * share if math.isfinite(share) else None
-
-
-def overview(stepper, scenes, counted):
+def overview(stepper, scenes):
     """What a page shows first of a stepper; Markdown shows its table alone."""
     text = ("Each case does the scene's measured frames with and without an effect, in turn, from the same states. The share is what the "
             "effect adds, of the time of the step that has it (medians); below zero the scene's step is shorter with it.")
@@ -221,9 +171,6 @@ def overview(stepper, scenes, counted):
                   defect_mm, errors_of_floor=True),
              bars("Demanded though the scene has it not", "What it costs; where nothing calls for it no bit of the result changes.",
                   "share of the step [%]", scenes, share_of(True), noise=True)]
-    if counted:
-        shown.append(bars("Share of the instructions", "Fewest of all repeats; no clock disturbs them.", "share of the step's instructions [%]",
-                          scenes, counted_share))
     title = "Share of the step [%], defect rms if left out; in brackets what demanding costs where the scene has it not"
     return Section(stepper, text, shown, [matrix(scenes, title)], shown_in=(PAGE,))
 
@@ -238,8 +185,6 @@ def effect_json(one):
         return found
     found |= {"same_bits": one.same_bits, "time_s": {what: spread_json(one.row, f"time_{what}") for what in ("with", "without", "cost")},
               "share": spread_json(one.row, "time_share")}
-    if math.isfinite(one.instruction_share()):
-        found["instructions"] = {"with": one.row.instructions_with, "without": one.row.instructions_without, "share": one.instruction_share()}
     return found | {table: errors.json_of(getattr(one, table)) for table in ("defect", "drift")}
 
 
@@ -254,17 +199,14 @@ def report_of(study, names):
     steppers = {}
     for scene in scenes:
         steppers.setdefault(scene.stepper, []).append(scene)
-    counted = instructions_by(study) != "none"
     tables = [Section(tables=[matrix(some)], shown_in=(MARKDOWN,)) for some in steppers.values()]
     head = ("study: effects; both sides of a case start each frame from the scene's own state, in turn\n"
             "cost: with the effect - without it, median, of the processor time of a step of all worlds\n"
-            f"{instructions_text(study)}\n"
             "error if left out: all body positions against the scene as it is; defect after one frame, drift at the end of the\n"
             f"measured window; bodies {'/'.join(errors.BANDS)}\n")
     line, entries = page.origin_of_study(study)
-    return Report("What effects cost", f"{study.path}; {instructions_text(study)}",
-                  [*tables, *(overview(stepper, some, counted) for stepper, some in steppers.items()), *map(scene_section, scenes)],
-                  {"instructions_by": instructions_by(study), "scenes": list(map(scene_json, scenes))}, head, line, entries)
+    return Report("What effects cost", study.path, [*tables, *(overview(stepper, some) for stepper, some in steppers.items()), *map(scene_section, scenes)],
+                  {"scenes": list(map(scene_json, scenes))}, head, line, entries)
 
 
 def run(words):
@@ -272,6 +214,4 @@ def run(words):
     if options is None:
         return
     study = read_study(one_file(options, "a study of effects", "effects.h5"), "effects")
-    if options.instructions_from:
-        take_counts(study, options.instructions_from)
     deliver(report_of(study, options.scene), options, study.tables["cases"])

@@ -137,8 +137,7 @@ EffectResult result_of(const std::string& effect, int repeats) {
   const EffectsOptions options = options_of({"--stepper", "sor", "--frames", "3", "--effect", effect});
   const StudyScene scene = study_scene(smooth_scene(), options.overrides);
   const EffectCase one = make_effect_cases({scene}, options).front();
-  core::InstructionCounter counter;
-  return run_effect_case(one, scene, make_reference(scene, one.stepper), one.stepper, repeats, counter);
+  return run_effect_case(one, scene, make_reference(scene, one.stepper), one.stepper, repeats);
 }
 
 TEST(EffectRunner, demanding_what_nothing_calls_for_changes_no_bit) {

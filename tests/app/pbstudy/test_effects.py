@@ -16,12 +16,6 @@ FAST = ["--frames", 2, "--repeats", 2, "--floor-seeds", 2]
 NOT_MEASURED = b"refused"
 
 
-def valgrind_runs_it():
-    """Valgrind is there, and the program has no sanitizer in it."""
-    with open(os.path.join(BIN, "pbstudy"), "rb") as program:
-        return shutil.which("valgrind") is not None and b"__asan_init" not in program.read()
-
-
 class Effects(ProgramTest):
     def study(self, ranks, *args, **options):
         command = ["mpirun", "-n", str(ranks), os.path.join(BIN, "pbstudy"), "effects", *map(str, args)]
@@ -39,7 +33,7 @@ class Effects(ProgramTest):
         one, two = self.made(1, "one.h5", *args), self.made(2, "two.h5", *args)
         self.assertEqual(set(one), set(two))
         for name, column in one.items():
-            if not name.startswith(("time_", "instructions_")):
+            if not name.startswith("time_"):
                 self.assertEqual(column.tobytes(), two[name].tobytes(), name)
         measured = one["kind"] != NOT_MEASURED
         self.assertTrue((one["time_with"][measured] > 0).all())
@@ -99,30 +93,10 @@ class Effects(ProgramTest):
         result = self.report("study.h5", "--quiet", "--html", "page.html")
         self.assertEqual(result.returncode, 0, result.stderr)
         page = self.drawn("page.html")
-        with h5py.File(self.path("study.h5")) as file:
-            counted = "instructions_with" in file["cases"]
-        self.assertEqual(page.count("<canvas"), 4 if counted else 3, "share, error, demanded, and counts if there are")
+        self.assertEqual(page.count("<canvas"), 3, "share, error, demanded")
         self.assertIn('<th class="" scope="col">CrashSk</th><th class="" scope="col">2-Cars</th>', page)
         self.assertIn('<td class="">friction</td>', page)
         self.assertNotIn("src=\"http", page)
-
-    @unittest.skipUnless(valgrind_runs_it(), "no valgrind, or a program that it cannot run")
-    def test_callgrind_counts_what_no_clock_resolves_and_another_study_takes_it(self):
-        args = ["--scene", "2-Cars", "--stepper", "sor", "--effect", "friction", "restitution", *FAST]
-        prefix = self.path("callgrind.%p")
-        command = ["valgrind", "--quiet", "--tool=callgrind", "--dump-line=no", f"--callgrind-out-file={prefix}",
-                   os.path.join(BIN, "pbstudy"), "effects", *map(str, args), "--output", "counted.h5"]
-        result = self.run_command(command, env={**os.environ, "PBMPI_CALLGRIND_OUT": prefix})
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn("instructions: counted by callgrind", result.stdout)
-        self.made(1, "study.h5", *args)
-        report = self.json(self.report("study.h5", "--instructions-from", "counted.h5", "--json"))
-        self.assertEqual(report["instructions_by"], "callgrind")
-        share = {one["effect"]: one["instructions"]["share"] for one in report["scenes"][0]["effects"]}
-        self.assertGreater(share["friction"], 0.02, "three rows a contact instead of one")
-        self.assertLess(abs(share["restitution"]), 0.01, "demanded: a test of each contact's approach at most")
-        self.made(1, "other.h5", *args[:4], "--effect", "friction", *FAST)
-        self.refused(self.report("other.h5", "--instructions-from", "counted.h5"), "counted.h5", "same options")
 
     def refused(self, result, *words):
         self.assertEqual(result.returncode, 2, result.stderr)
@@ -144,9 +118,6 @@ class Effects(ProgramTest):
         self.refused(self.report("study.h5", "--scene", "Fight"), "Fight", "2-Cars")
         self.refused(self.report("study", "study.h5"), "study of effects", "pbreport effects")
         self.refused(self.report("effects", "absent.h5"), "absent.h5")
-        self.refused(self.report("study.h5", "--instructions-from", "absent.h5"), "absent.h5")
-        if "instructions_with" not in h5py.File(self.path("study.h5"))["cases"]:
-            self.refused(self.report("study.h5", "--instructions-from", "study.h5"), "instructions_with")
 
     def test_help_names_every_option(self):
         result = self.study(1, "--help", "all")

@@ -49,13 +49,6 @@ class Numbers(unittest.TestCase):
         self.assertIn("AND YET THE RESULT CHANGES", note(False, False, 0))
         self.assertEqual(note(True, False, 0), "left out: 3 things")
 
-    def test_instructions_give_a_share_only_where_they_were_counted(self):
-        counts = {"instructions_with": 400.0, "instructions_without": 300.0}
-        counted = report_of(row("friction", True, False, 0.5, **counts), instructions_by="perf")
-        self.assertEqual(counted.numbers["scenes"][0]["effects"][0]["instructions"], {"with": 400, "without": 300, "share": 0.25})
-        uncounted = report_of(row("friction", True, False, 0.5, **counts))
-        self.assertNotIn("instructions", uncounted.numbers["scenes"][0]["effects"][0])
-
     def test_shares_are_percent_and_nothing_is_a_dash(self):
         self.assertEqual([words.percent(share) for share in (0.572, -0.0001, float("nan"))], ["57.2 %", "0.0 %", "-"])
 

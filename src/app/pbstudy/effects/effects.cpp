@@ -21,7 +21,7 @@ struct Baseline {
 };
 
 std::vector<EffectResult> run_cases(const EffectsOptions& options, const std::vector<EffectCase>& cases,
-                                    core::InstructionCounter& counter, StudyRunner& runner) {
+                                    StudyRunner& runner) {
   Baseline baseline;
   const auto run_one = [&](std::size_t i) {
     const EffectCase& one = cases[i];
@@ -29,7 +29,7 @@ std::vector<EffectResult> run_cases(const EffectsOptions& options, const std::ve
     stepping::StepperSettings stepper = one.stepper;
     stepper.seed = options.seed;
     if (!baseline.serves(one.scene, stepper)) baseline = {one.scene, stepper, make_reference(scene, stepper)};
-    return run_effect_case(one, scene, baseline.reference, stepper, options.repeats, counter);
+    return run_effect_case(one, scene, baseline.reference, stepper, options.repeats);
   };
   return runner.run<EffectResult>(cases, &EffectCase::cost, run_one).results;
 }
@@ -53,11 +53,10 @@ int same_bits(const EffectResult& result) {
   return result.hash_baseline == result.hash_variant ? 1 : 0;
 }
 
-/// Columns with one row per case (io/SCHEMA.md), with instructions only if `counted`. `results` [num_cases]
-/// in the order of the cases.
+/// Columns with one row per case (io/SCHEMA.md). `results` [num_cases] in the order of the cases.
 std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scenes,
                                             const std::vector<EffectCase>& cases,
-                                            const std::vector<EffectResult>& results, bool counted) {
+                                            const std::vector<EffectResult>& results) {
   using Case = const EffectCase&;
   using Result = const EffectResult&;
   std::vector<io::TableColumn> columns = {
@@ -80,28 +79,18 @@ std::vector<io::TableColumn> effect_columns(const std::vector<StudyScene>& scene
   add_spread("time_without", "s", &EffectResult::time_without_s, results, columns);
   add_spread("time_cost", "s", &EffectResult::cost_s, results, columns);
   add_spread("time_share", "", &EffectResult::share, results, columns);
-  if (counted) {
-    columns.push_back(column("instructions_with", "", results, &EffectResult::instructions_with));
-    columns.push_back(column("instructions_without", "", results, &EffectResult::instructions_without));
-  }
   add_errors("defect", &EffectResult::defect, results, columns);
   add_errors("drift", &EffectResult::drift, results, columns);
   return columns;
 }
 
 StudyContent content(const std::vector<StudyScene>& scenes, const std::vector<EffectCase>& cases,
-                     const std::vector<EffectResult>& results, const std::string& counted_by) {
+                     const std::vector<EffectResult>& results) {
   stepping::StepperSettings sor;
   sor.kind = stepping::StepperKind::sor;
-  const bool counted = counted_by != "none";
   StudyContent content;
-  content.parameters = {Parameter::of("instructions_by", counted_by),
-                        Parameter::of("sor_simd", simd_text(sor))};
-  content.cases = effect_columns(scenes, cases, results, counted);
-  content.note =
-      counted ? "instructions: counted by " + counted_by + "\n"
-              : "instructions: not counted, this machine gives no counter; jobs/effects.sh --instructions "
-                "counts them by callgrind\n";
+  content.parameters = {Parameter::of("sor_simd", simd_text(sor))};
+  content.cases = effect_columns(scenes, cases, results);
   return content;
 }
 
@@ -112,10 +101,8 @@ core::ExitCode run_effects(const mpi::Communicator& comm, const std::vector<std:
   StudyRunner runner(comm, "effects", options);
   const std::vector<EffectCase> cases = make_effect_cases(runner.scenes(), options);
   runner.open_output();
-  core::InstructionCounter counter;
-  const std::vector<EffectResult> results = run_cases(options, cases, counter, runner);
-  runner.write(
-      [&] { return content(runner.scenes(), cases, results, std::string(core::name_of(counter.source()))); });
+  const std::vector<EffectResult> results = run_cases(options, cases, runner);
+  runner.write([&] { return content(runner.scenes(), cases, results); });
   return core::ExitCode::done;
 }
 

@@ -140,10 +140,7 @@ Manual effects_manual() {
       .options = options_description(),
       .basic = {"scene", "effect", "stepper", "precision", "replicas", "frames", "repeats", "floor-seeds",
                 "output", "max-time", "resume"},
-      .notes = {std::string(one_case_a_rank) + spoils_times +
-                " Instructions are counted by the processor's counter where Linux gives it "
-                "(perf_event_open), or under callgrind (jobs/effects.sh --instructions); else they are not "
-                "in the file, and pbreport effects --instructions-from takes those of another."},
+      .notes = {std::string(one_case_a_rank) + spoils_times},
       .examples = {"mpirun -n 2 pbstudy effects --scene CrashWa", "pbreport effects.h5 --html effects.html"}};
 }
 

@@ -26,26 +26,14 @@ std::uint64_t hash_of(const std::vector<State>& states) {
 /// The frames of baseline or variant.
 struct Side {
   CaseStepper stepper;
-  std::vector<double> frame_s;  ///< processor time, round by round
-  /// [frames] The fewest over all rounds: in the first ones memory grows and functions are bound.
-  std::vector<double> instructions;
-
-  void advance_frame(std::size_t frame, core::InstructionCounter& counter) {
-    counter.start();
-    frame_s.push_back(stepper.advance_frame());
-    if (counter.available())
-      instructions[frame] = std::min(instructions[frame], static_cast<double>(counter.stop()));
-  }
-  double instructions_of_a_step(int steps_per_frame) const {
-    return core::summarize(instructions).mean / steps_per_frame;
-  }
+  std::vector<double> frame_s = {};  ///< processor time, round by round
 };
 
 /// All frames of one round, from the baseline's states, both sides in turn, beginning with side `first`. A
 /// frame before them is discarded: the cost of a jump back to another step must not be timed.
 template <class AfterFrame>
 void run_round(std::array<Side, 2>& sides, const StudyScene& scene, const Reference& baseline,
-               std::size_t first, core::InstructionCounter& counter, AfterFrame&& after_frame) {
+               std::size_t first, AfterFrame&& after_frame) {
   for (Side& side : sides) {
     if (scene.warmup == 0) continue;
     side.stepper.start_from(baseline.states[static_cast<std::size_t>(scene.warmup - 1)], scene.warmup - 1);
@@ -55,7 +43,7 @@ void run_round(std::array<Side, 2>& sides, const StudyScene& scene, const Refere
     for (std::size_t i = 0; i < 2; ++i) {
       Side& side = sides[(first + i) % 2];
       side.stepper.start_from(baseline.states[static_cast<std::size_t>(frame)], frame);
-      side.advance_frame(static_cast<std::size_t>(frame - scene.warmup), counter);
+      side.frame_s.push_back(side.stepper.advance_frame());
     }
     after_frame(frame);
   }
@@ -88,20 +76,18 @@ void summarize_times(const Side& with, const Side& without, int steps_per_frame,
 }  // namespace
 
 EffectResult run_effect_case(const EffectCase& one, const StudyScene& scene, const Reference& baseline,
-                             const stepping::StepperSettings& baseline_stepper, int repeats,
-                             core::InstructionCounter& counter) {
+                             const stepping::StepperSettings& baseline_stepper, int repeats) {
   EffectResult result;
   if (one.kind == EffectCaseKind::refused) return result;
   const Worlds variant = one.kind == EffectCaseKind::floor
                              ? baseline.worlds
                              : build_worlds(scene, scene.dt_s, baseline_stepper.seed, one.choices());
   const int steps = scene.steps_per_frame();
-  const std::vector<double> uncounted(static_cast<std::size_t>(scene.frames), INFINITY);
-  std::array<Side, 2> sides = {Side{{baseline.worlds, baseline_stepper, steps}, {}, uncounted},
-                               Side{{variant, one.stepper, steps}, {}, uncounted}};
+  std::array<Side, 2> sides = {Side{{baseline.worlds, baseline_stepper, steps}},
+                               Side{{variant, one.stepper, steps}}};
   analysis::PoseErrors defect;
   for (int round = 0; round < repeats; ++round) {
-    run_round(sides, scene, baseline, static_cast<std::size_t>(round), counter, [&](int frame) {
+    run_round(sides, scene, baseline, static_cast<std::size_t>(round), [&](int frame) {
       if (round > 0) return;  // the others give the same bits
       defect.append(
           errors_of(sides[1].stepper, baseline.worlds, baseline.states[static_cast<std::size_t>(frame) + 1]));
@@ -111,10 +97,6 @@ EffectResult run_effect_case(const EffectCase& one, const StudyScene& scene, con
   const bool adds = one.kind == EffectCaseKind::demanded;
   const Side &with = sides[adds ? 1 : 0], &without = sides[adds ? 0 : 1];
   summarize_times(with, without, steps, result);
-  if (counter.available()) {
-    result.instructions_with = with.instructions_of_a_step(steps);
-    result.instructions_without = without.instructions_of_a_step(steps);
-  }
   measure_drift(one, scene, baseline, variant, result);
   return result;
 }
