@@ -7,7 +7,7 @@ from reports.command_line import Command, add_scene_option, deliver, one_file, p
 from reports.document import PAGE, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study, require, write_file
 from reports.study import diagrams
-from reports.study.answers import LENGTHS_M, Limit, answer_command, answer_json, answer_text, answers_asked, result_text
+from reports.study.answers import ANSWERS, LENGTHS_M, Limit, answer_command, answer_json, answer_text, result_text
 from reports.words import number, percent, plural
 
 
@@ -16,9 +16,7 @@ def add_options(group):
                        "ms, s); what fells bodies that should stand, or breaks hard cases, is not chosen")
     group.add_argument("--tolerance", metavar="LENGTH", help="name, per scene, the cheapest setting that keeps this length (mm, cm, m), "
                        "with the same exceptions: 1mm, 1cm and 10cm for nine bodies in ten of those that nature determines so well, other "
-                       "lengths by --measure")
-    group.add_argument("--measure", default="rms", metavar="|".join(MEASURES), help="the error that counts: a statistic of all body "
-                       "positions, or the rms of all joint gaps")
+                       "lengths by the rms of all bodies")
     group.add_argument("--hard-cases", metavar="FILE", help="choose only what holds the hard cases of this file of pbstudy stability")
     add_scene_option(group)
     group.add_argument("--write-config", metavar="OUT", help="the setting chosen for one scene, for pbmpi --config")
@@ -29,30 +27,16 @@ COMMAND = Command("study", "Shows what accuracy costs in time: the file of pbstu
                   csv="all cases as comma-separated values", add_options=add_options)
 
 
-@dataclasses.dataclass
-class Measure:
-    """A statistic of a case's errors [m] by which settings can be ranked, and how its diagram is labelled."""
-    kind: str
-    what: str
-    words: str
-    title: str
-    axis: str
-
-
-MEASURES = {"rms": Measure("body_position", "rms", "rms of body positions", "Position, rms", "error, rms [mm]"),
-            "median": Measure("body_position", "median", "median of body positions", "Position, median", "error, median [mm]"),
-            "p90": Measure("body_position", "p90", "p90 of body positions", "Position, 90th percentile", "error, p90 [mm]"),
-            "p99": Measure("body_position", "p99", "p99 of body positions", "Position, 99th percentile", "error, p99 [mm]"),
-            "max": Measure("body_position", "max", "max of body positions", "Position, worst body", "error, max [mm]"),
-            "joint": Measure("joint_position", "rms", "rms of joint gaps", "Joint gap", "difference of the gaps, rms [mm]")}
-CHARTS = ("rms", "median", "p90", "joint")
-POSITIONS = tuple(name for name, measure in MEASURES.items() if measure.kind == "body_position")
+# The diagrams of a scene: title and axis by the error that they show, as error_by() takes it.
+CHARTS = {"rms": ("Position, rms", "error, rms [mm]"), "median": ("Position, median", "error, median [mm]"),
+          "p90": ("Position, 90th percentile", "error, p90 [mm]"), "joint": ("Joint gap", "difference of the gaps, rms [mm]")}
 # Kinds of which a scene has many cases, and where SceneCases keeps them.
 LISTS = {"setting": "settings", "estimate": "estimates", "own": "own", "own_floor": "own_floor"}
 
 
 def error_by(measure, table):
-    return getattr(table[MEASURES[measure].kind], MEASURES[measure].what)
+    """[m] A statistic of all body positions, or "joint": the rms of all joint gaps."""
+    return table["joint_position"].rms if measure == "joint" else getattr(table["body_position"], measure)
 
 
 class Case:
@@ -86,13 +70,13 @@ class Case:
         """Was it compared with its own solution?"""
         return self.own_defect["body_position"].count > 0
 
-    def error_m(self, measure):
+    def error_m(self, measure="rms"):
         """Against nature; NaN where nature determines no body."""
         return error_by(measure, self.defect) if self.defect["body_position"].count > 0 else math.nan
 
-    def own_error_m(self, measure):
+    def own_error_m(self):
         """Against its own solution; NaN without one."""
-        return error_by(measure, self.own_defect) if self.has_own() else math.nan
+        return error_by("rms", self.own_defect) if self.has_own() else math.nan
 
     def within(self):
         """{length: share}: of the bodies that nature determines for a length, how many end within it; NaN without any."""
@@ -138,12 +122,12 @@ class SceneCases:
         """{length: share}: how many of the bodies and frames nature determines so well that their errors say something."""
         return dict(zip(LENGTHS_M, self.nature.row.determined)) if self.nature else dict.fromkeys(LENGTHS_M, math.nan)
 
-    def own_floor_m(self, stepper, measure):
+    def own_floor_m(self, stepper):
         """The noise floor of a stepper's own solution: the largest error that another start and seed gave it. NaN: none was measured."""
-        found = [one.own_error_m(measure) for one in self.own_floor if one.stepper == stepper]
+        found = [one.own_error_m() for one in self.own_floor if one.stepper == stepper]
         return max((error for error in found if not math.isnan(error)), default=math.nan)
 
-    def uncertainty_m(self, measure):
+    def uncertainty_m(self, measure="rms"):
         """How far nature may be off: what half of its step changes, or how far its two ways are apart. NaN: it was not measured."""
         return self.nature.error_m(measure) if self.nature else math.nan
 
@@ -157,12 +141,12 @@ class SceneCases:
                 front.append(one)
         return front
 
-    def front(self, measure, settings=None):
+    def front(self, measure="rms", settings=None):
         return self.pareto_front(lambda one: one.error_m(measure), settings)
 
-    def is_inside(self, case, measure):
+    def is_inside(self, case):
         """Is its error within the uncertainty of nature?"""
-        return case.error_m(measure) <= self.uncertainty_m(measure)
+        return case.error_m() <= self.uncertainty_m()
 
 
 def scenes_of(study, names=(), hard_cases=None):
@@ -196,9 +180,9 @@ def cases_tables(title, text, cases, scene, limit, setting="setting (substeps x 
              for place, name in enumerate(errors.BANDS)]
     numbers = [Column(time, lambda one: f"{1e3 * one.time_s:.3f}"), Column("median ms", lambda one: f"{1e3 * one.median_time_s:.3f}"),
                Column("row visits", lambda one: f"{one.row.row_visits:.0f}"),
-               *(Column(f"{what} mm", lambda one, what=what: number(one.error_m(what), ".4g", 1e3)) for what in POSITIONS),
+               *(Column(f"{what} mm", lambda one, what=what: number(one.error_m(what), ".4g", 1e3)) for what in errors.NUMBERS),
                *(Column(f"within {length} %", lambda one, length=length: number(one.within()[length], ".1f", 100)) for length in LENGTHS_M),
-               Column("own rms mm", lambda one: number(one.own_error_m("rms"), ".4g", 1e3)),
+               Column("own rms mm", lambda one: number(one.own_error_m(), ".4g", 1e3)),
                Column("joint gap mm", lambda one: f"{1e3 * one.joint_gap_m:.4g}"),
                Column("drift rms mm", lambda one: f"{1e3 * one.drift['body_position'].rms:.4g}"),
                Column("creep mm/s", lambda one: number(one.row.rest_creep, ".3g", 1e3)), *bands]
@@ -230,9 +214,9 @@ def nature_table(scene):
 def own_table(scene):
     text = ("each stepper's equations, solved by it from the iterations below on; rms from nature, from the same with a quarter of the "
             "iterations, noise floor of the stepper; mean iterations")
-    columns = [Column("nature mm", lambda one: number(one.error_m("rms"), ".4g", 1e3)),
-               Column("quarter mm", lambda one: number(one.own_error_m("rms"), ".4g", 1e3)),
-               Column("floor mm", lambda one: number(scene.own_floor_m(one.stepper, "rms"), ".4g", 1e3)),
+    columns = [Column("nature mm", lambda one: number(one.error_m(), ".4g", 1e3)),
+               Column("quarter mm", lambda one: number(one.own_error_m(), ".4g", 1e3)),
+               Column("floor mm", lambda one: number(scene.own_floor_m(one.stepper), ".4g", 1e3)),
                Column("iterations", lambda one: number(one.row.solve_iterations, ".4g")), Column("", Case.setting)]
     return Table.of("Own solutions", columns, scene.own, text=text, shown_in=(TEXT,))
 
@@ -262,33 +246,33 @@ def scene_text(scene, limit):
              "shorter steps, reached in two ways: by springs (soft), and by ODE's rows with cones of friction (ode). It is determined for "
              f"{determined_text(scene)}, that is, known to a tenth of it. Its uncertainty for the bodies that count, what half the step "
              "changes or the two ways are apart: "
-             f"{number(scene.uncertainty_m(limit.measure), '.4g', 1e3)} mm ({MEASURES[limit.measure].words}).")
+             f"{number(scene.uncertainty_m(), '.4g', 1e3)} mm (rms of body positions).")
     if scene.own:
         text += " Own rms: the error against the same equations solved by the same stepper with many iterations."
     return text + choice_text(scene, limit)
 
 
 def scene_section(scene, limit):
-    charts = [diagrams.diagram(scene, limit, name, MEASURES[name].title, MEASURES[name].axis) for name in CHARTS]
+    charts = [diagrams.diagram(scene, limit, name, title, axis) for name, (title, axis) in CHARTS.items()]
     tables = [nature_table(scene)]
     if scene.own:
         tables.append(own_table(scene))
-    tables += cases_tables("Pareto front", "", scene.front(limit.measure), scene, limit)
+    tables += cases_tables("Pareto front", "", scene.front(), scene, limit)
     if scene.estimates:
         text = "a frame of the setting, estimated with so many iterations a step; times are those until the estimate is there"
         tables += cases_tables("Estimates (FEEC)", text, scene.estimates, scene, limit, "setting, and what estimates its frame",
                                "until it is there ms")
-    answer = answer_text(scene, limit.measure, MEASURES[limit.measure].words) + ("" if limit.is_asked() else answer_command(scene, limit.measure))
+    answer = answer_text(scene) + ("" if limit.is_asked() else answer_command(scene))
     return Section(scene.name, scene_text(scene, limit), charts, tables, last=answer)
 
 
-def case_json(one, limit):
+def case_json(one):
     row = one.row
     found = {"options": one.options(), "frame_time_s": {"worst": one.time_s, "median": one.median_time_s}, "row_visits": row.row_visits,
              "defect": errors.json_of(one.defect)}
     if one.has_own():
-        found |= {"own_defect": errors.json_of(one.own_defect), "own_error_m": one.own_error_m(limit.measure)}
-    found |= {"joint_gap_m": one.joint_gap_m, "error_m": one.error_m(limit.measure), "within": one.within()}
+        found |= {"own_defect": errors.json_of(one.own_defect), "own_error_m": one.own_error_m()}
+    found |= {"joint_gap_m": one.joint_gap_m, "error_m": one.error_m(), "within": one.within()}
     if one.hard:
         found["hard_cases"] = dataclasses.asdict(one.hard)
     if not math.isnan(row.rest_fallen):
@@ -297,14 +281,14 @@ def case_json(one, limit):
     return found
 
 
-def estimate_json(one, limit):
-    return case_json(one, limit) | {"estimate": {"iterations": one.row.estimate_iterations}}
+def estimate_json(one):
+    return case_json(one) | {"estimate": {"iterations": one.row.estimate_iterations}}
 
 
-def own_json(one, scene, measure):
+def own_json(one, scene):
     return {"stepper": one.stepper, "setting": one.setting(), "iterations": one.row.solve_iterations,
-            "from_nature_m": one.error_m(measure), "from_a_quarter_m": one.own_error_m(measure),
-            "noise_floor_m": scene.own_floor_m(one.stepper, measure)}
+            "from_nature_m": one.error_m(), "from_a_quarter_m": one.own_error_m(),
+            "noise_floor_m": scene.own_floor_m(one.stepper)}
 
 
 NATURE = ("frame", "soft_steps", "ode_steps", "soft_halved_median", "soft_halved_p90", "ode_halved_median", "ode_halved_p90", "apart_median",
@@ -312,20 +296,19 @@ NATURE = ("frame", "soft_steps", "ode_steps", "soft_halved_median", "soft_halved
 
 
 def scene_json(scene, limit):
-    measure = limit.measure
-    found = {"scene": scene.name, "uncertainty_m": scene.uncertainty_m(measure), "determined": scene.determined(),
+    found = {"scene": scene.name, "uncertainty_m": scene.uncertainty_m(), "determined": scene.determined(),
              "nature": [{name: getattr(row, name) for name in NATURE} | {"determined": dict(zip(LENGTHS_M, row.determined))}
                         for row in scene.frames]}
     if scene.own:
-        found["own"] = [own_json(one, scene, measure) for one in scene.own]
-    found["front"] = [case_json(one, limit) for one in scene.front(measure)]
+        found["own"] = [own_json(one, scene) for one in scene.own]
+    found["front"] = list(map(case_json, scene.front()))
     if scene.estimates:
-        found["estimates"] = [estimate_json(one, limit) for one in scene.estimates]
+        found["estimates"] = list(map(estimate_json, scene.estimates))
     chosen = limit.chosen(scene)
     if chosen:
-        found["chosen"] = case_json(chosen, limit) | {"inside_uncertainty": scene.is_inside(chosen, measure)}
+        found["chosen"] = case_json(chosen) | {"inside_uncertainty": scene.is_inside(chosen)}
         found["run"] = chosen.run_command()
-    found["answers"] = [answer_json(one, scene) for one in answers_asked(measure)]
+    found["answers"] = [answer_json(one, scene) for one in ANSWERS]
     return found
 
 
@@ -344,10 +327,9 @@ def write_config(path, scenes, limit):
 
 
 def limit_of(options):
-    require(options.measure in MEASURES, f"--measure {options.measure}: it must be {', '.join(MEASURES)}")
     budget_s = quantity(options.budget, "time", "--budget") if options.budget is not None else None
     tolerance_m = quantity(options.tolerance, "length", "--tolerance") if options.tolerance is not None else None
-    limit = Limit(options.measure, budget_s, tolerance_m)
+    limit = Limit(budget_s, tolerance_m)
     require(not options.write_config or limit.is_asked(),
             "--write-config writes the setting that --budget or --tolerance chooses; give one of them")
     require(not (budget_s and tolerance_m), "--budget and --tolerance exclude each other; drop one")
@@ -355,7 +337,7 @@ def limit_of(options):
 
 
 def report_of(study, scenes, limit):
-    head = f"study: accuracy; error after one frame from nature's state, ranked by the {MEASURES[limit.measure].words}\n"
+    head = "study: accuracy; error after one frame from nature's state, ranked by the rms of body positions\n"
     steps, error_m = (study.parameters.get(name) for name in ("nature_steps", "nature_error"))
     if steps and error_m:
         head += (f"nature: the limit of ever shorter steps, at most {steps} a frame, until half the step moves nine bodies in ten by less than "

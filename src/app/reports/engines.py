@@ -48,8 +48,8 @@ class Yardstick:
         return math.inf if math.isnan(error) else error
 
 
-NATURE = Yardstick("nature", "nature", lambda case: case.error_m("rms"))
-OWN = Yardstick("own", "its own solution", lambda case: case.own_error_m("rms"))
+NATURE = Yardstick("nature", "nature", lambda case: case.error_m())
+OWN = Yardstick("own", "its own solution", lambda case: case.own_error_m())
 
 
 class Engine:
@@ -62,12 +62,12 @@ class Engine:
         self.settings = [one for one in scene.settings if one.stepper == name]
         self.not_finite = sum(not one.finite() for one in self.settings)
         self.felled = sum(one.fells() for one in self.settings)
-        self.floor_m, self.law_m, self.fewer_m = scene.own_floor_m(name, "rms"), math.nan, math.nan
+        self.floor_m, self.law_m, self.fewer_m = scene.own_floor_m(name), math.nan, math.nan
         # The own solution whose noise was measured is that of the usual settings.
         measured = [one.own for one in scene.own_floor if one.stepper == name][:1]
         for usual in [one for one in scene.own if one.own in measured][:1]:
-            self.law_m = usual.error_m("rms")
-            self.fewer_m = usual.own_error_m("rms") if usual.iterates else math.nan
+            self.law_m = usual.error_m()
+            self.fewer_m = usual.own_error_m() if usual.iterates else math.nan
 
     def front(self, yardstick):
         """Its settings that no other of them beats, by ascending time; empty if none stands."""
@@ -78,7 +78,7 @@ class Scene:
     """A scene of a study of accuracy."""
 
     def __init__(self, cases):
-        self.name, self.uncertainty_m = cases.name, cases.uncertainty_m("rms")  # of nature
+        self.name, self.uncertainty_m = cases.name, cases.uncertainty_m()  # of nature
         self.engines = [Engine(cases, name) for name in dict.fromkeys(one.stepper for one in cases.settings)]
         self.has_own = any(one.has_own() for one in cases.settings)
         self.yardsticks = [NATURE, OWN] if self.has_own else [NATURE]

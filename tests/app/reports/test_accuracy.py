@@ -126,11 +126,10 @@ class Choice(unittest.TestCase):
         self.assertTrue(accuracy.choice_text(cases, Limit(budget_s=1e-6)).endswith("no setting of the study keeps it"))
         self.assertEqual(accuracy.choice_text(cases, Limit()), "")
 
-    def test_settings_are_ranked_by_the_measure_asked_for(self):
+    def test_each_diagram_has_a_front_of_its_own(self):
         cases = SceneCases("Fake", [case(1, 1, defect_joint_position_rms=9e-3), case(2, 2, defect_joint_position_rms=3e-3)])
         self.assertEqual(places(cases, cases.front("rms")), [0])
         self.assertEqual(places(cases, cases.front("joint")), [0, 1])
-        self.assertEqual(place(cases, measure="joint", tolerance_m=5e-3), 1)
 
 
 class Answers(unittest.TestCase):
@@ -138,7 +137,7 @@ class Answers(unittest.TestCase):
         self.cases = SceneCases("Fake", [case(1, 10, within=[0.0, 0.95, 1.0]), case(3, 4), case(9, 1, within=[0.5, 1.0, 1.0])])
 
     def test_each_scene_answers_the_papers_budget_and_three_lengths(self):
-        found = [answers.answer_json(limit, self.cases) for limit in answers.answers_asked("rms")]
+        found = [answers.answer_json(limit, self.cases) for limit in answers.ANSWERS]
         self.assertEqual([one["asked"] for one in found], ["3.33 ms", "1 mm", "1 cm", "10 cm"])
         self.assertEqual([one.get("error_m") for one in found], [4e-3, None, 10e-3, 10e-3])
         self.assertEqual(found[0] | {"run": ""}, {"asked": "3.33 ms", "setting": "sor single, 2 x 3, dt 0.01 s", "error_m": 4e-3,
@@ -146,14 +145,14 @@ class Answers(unittest.TestCase):
         self.assertEqual(found[1], {"asked": "1 mm", "setting": None, "reason": "no setting of the study keeps it"})
 
     def test_the_answers_are_one_sentence_that_says_whether_hard_cases_were_asked(self):
-        text = answers.answer_text(self.cases, "rms", "rms of body positions")
+        text = answers.answer_text(self.cases)
         self.assertEqual(text, "Least error (rms of body positions) in 3.33 ms: sor single, 2 x 3, dt 0.01 s (3.000 ms, 4 mm); least time for "
                          "1 mm: none, no setting of the study keeps it; least time for 1 cm: sor single, 2 x 3, dt 0.01 s (1.000 ms, 95 % within it, "
                          "10 mm); least time for 10 cm: sor single, 2 x 3, dt 0.01 s (1.000 ms, 100 % within it, 10 mm) (settings not held "
                          "against the hard cases: --hard-cases stability.h5).")
         for one in self.cases.settings:
             one.hard = HOLDS
-        self.assertTrue(answers.answer_text(self.cases, "rms", "").endswith("(1.000 ms, 100 % within it, 10 mm)."))
+        self.assertTrue(answers.answer_text(self.cases).endswith("(1.000 ms, 100 % within it, 10 mm)."))
 
 
 class HardCases(unittest.TestCase):
@@ -190,10 +189,10 @@ class Nature(unittest.TestCase):
         self.assertTrue(math.isnan(scene().uncertainty_m("rms")))
         cases = scene(uncertainty_mm=4)
         self.assertEqual((cases.uncertainty_m("rms"), cases.uncertainty_m("median")), (4e-3, 0))
-        self.assertTrue(cases.is_inside(cases.settings[0], "rms"), "2 mm")
+        self.assertTrue(cases.is_inside(cases.settings[0]), "2 mm")
         self.assertEqual(answers.result_text(Limit(budget_s=1), cases, cases.settings[0]).split(", ")[-1],
                          "below the 4 mm to which nature is known")
-        self.assertFalse(cases.is_inside(cases.settings[3], "rms"), "5 mm")
+        self.assertFalse(cases.is_inside(cases.settings[3]), "5 mm")
         self.assertEqual(answers.result_text(Limit(budget_s=1), cases, cases.settings[3]), "2.000 ms, 5 mm")
         self.assertEqual(cases.determined(), {"1 mm": 0.25, "1 cm": 0.75, "10 cm": 1.0})
 
@@ -210,9 +209,9 @@ class Nature(unittest.TestCase):
         cases = SceneCases("Fake")
         for stepper, rms_m in (("sor", 1e-6), ("sor", 3e-6), ("quick", 5e-6)):
             cases.add(case(1, 1, stepper=stepper, own_defect_body_position_rms=rms_m, **own))
-        self.assertEqual(cases.own_floor_m("sor", "rms"), 3e-6)
-        self.assertTrue(math.isnan(cases.own_floor_m("direct", "rms")))
-        self.assertTrue(math.isnan(case(1, 1).own_error_m("rms")), "it has no own solution")
+        self.assertEqual(cases.own_floor_m("sor"), 3e-6)
+        self.assertTrue(math.isnan(cases.own_floor_m("direct")))
+        self.assertTrue(math.isnan(case(1, 1).own_error_m()), "it has no own solution")
 
 
 class Words(unittest.TestCase):
@@ -251,9 +250,9 @@ class Diagrams(unittest.TestCase):
                          [("uncertainty of nature [mm]", 4), ("tolerance [mm]", 6)])
 
     def test_a_tolerance_is_drawn_where_its_measure_is(self):
-        bands = diagrams.bands(scene(), Limit("rms", tolerance_m=1e-3), "max")
+        bands = diagrams.bands(scene(), Limit(tolerance_m=1e-3), "max")
         self.assertNotIn("tolerance [mm]", [band["label"] for band in bands])
-        self.assertIn("budget [ms]", [band["label"] for band in diagrams.bands(scene(), Limit("rms", budget_s=1e-3), "max")])
+        self.assertIn("budget [ms]", [band["label"] for band in diagrams.bands(scene(), Limit(budget_s=1e-3), "max")])
 
 
 class Program(unittest.TestCase):
@@ -324,7 +323,6 @@ class Program(unittest.TestCase):
     def test_contradictions_are_refused(self):
         for words, said in (([], "no file"), (["a.h5", "b.h5"], "one study"), (["a.h5", "--write-config", "p"], "--budget"),
                             (["a.h5", "--budget", "1ms", "--tolerance", "1cm"], "exclude"),
-                            (["a.h5", "--measure", "mean"], "rms, median, p90, p99, max, joint"),
                             (["a.h5", "--budget", "3.33"], "unit"), ([self.path, "--html", self.path], "name another file"),
                             ([self.path, "--hard-cases", "s.h5", "--html", "s.h5"], "name another file"),
                             ([self.path, "--budget", "1us", "--write-config", self.config], "no setting of the study keeps"),

@@ -9,10 +9,6 @@ KEEPS = 0.9  # share of the bodies determined for a length that must end within 
 FRAME_BUDGET_S = 3.33e-3  # the paper's, of a frame of 33.3 ms
 
 
-def millimetres(one, measure):
-    return f"{number(one.error_m(measure), '.4g', 1e3)} mm"
-
-
 def length_text(metres):
     """"1 mm", "10 cm"; other lengths in mm."""
     return next((name for name, value in LENGTHS_M.items() if math.isclose(value, metres)), f"{1e3 * metres:g} mm")
@@ -21,7 +17,6 @@ def length_text(metres):
 @dataclasses.dataclass
 class Limit:
     """What is asked of a setting: a time of its worst frame, or a length that it keeps; or neither, then nothing is chosen."""
-    measure: str = "rms"
     budget_s: float | None = None
     tolerance_m: float | None = None
 
@@ -37,17 +32,16 @@ class Limit:
 
     def keeps(self, case):
         if self.budget_s:
-            return case.time_s <= self.budget_s and not math.isnan(case.error_m(self.measure))
+            return case.time_s <= self.budget_s and not math.isnan(case.error_m())
         if self.tolerance_m is None:
             return False
         within = case.within().get(self.text())
-        return case.error_m(self.measure) <= self.tolerance_m if within is None else within >= KEEPS
+        return case.error_m() <= self.tolerance_m if within is None else within >= KEEPS
 
     def chosen(self, scene):
         """The setting with the least error within the time, or the least time of those that keep the length; None: there is none."""
         def order(one):
-            error_m = one.error_m(self.measure)
-            return (error_m, one.time_s) if self.budget_s else (one.time_s, error_m)
+            return (one.error_m(), one.time_s) if self.budget_s else (one.time_s, one.error_m())
 
         return min((one for one in scene.settings if one.may_be_chosen() and self.keeps(one)), key=order, default=None)
 
@@ -68,39 +62,38 @@ class Limit:
 def result_text(limit, scene, one):
     """What a setting that is chosen takes and reaches: "0.129 ms, 97 % within it, 2.655 mm"."""
     share = None if limit.budget_s else one.within().get(limit.text())
-    parts = [f"{1e3 * one.time_s:.3f} ms", *([] if share is None else [f"{percent(share, 0)} within it"]), millimetres(one, limit.measure)]
-    if scene.is_inside(one, limit.measure):
-        parts.append(f"below the {1e3 * scene.uncertainty_m(limit.measure):.4g} mm to which nature is known")
+    parts = [f"{1e3 * one.time_s:.3f} ms", *([] if share is None else [f"{percent(share, 0)} within it"]), f"{number(one.error_m(), '.4g', 1e3)} mm"]
+    if scene.is_inside(one):
+        parts.append(f"below the {1e3 * scene.uncertainty_m():.4g} mm to which nature is known")
     return ", ".join(parts)
 
 
-def answers_asked(measure):
-    """What every scene answers."""
-    return [Limit(measure, budget_s=FRAME_BUDGET_S), *(Limit(measure, tolerance_m=length_m) for length_m in LENGTHS_M.values())]
+# What every scene answers.
+ANSWERS = (Limit(budget_s=FRAME_BUDGET_S), *(Limit(tolerance_m=length_m) for length_m in LENGTHS_M.values()))
 
 
 def answer_json(limit, scene):
     one = limit.chosen(scene)
     if one is None:
         return {"asked": limit.text(), "setting": None, "reason": limit.why_none(scene)}
-    return {"asked": limit.text(), "setting": one.setting(), "error_m": one.error_m(limit.measure), "frame_time_s": one.time_s,
+    return {"asked": limit.text(), "setting": one.setting(), "error_m": one.error_m(), "frame_time_s": one.time_s,
             "run": one.run_command()}
 
 
-def answer_text(scene, measure, words):
-    """The sentence that says what the study is for. `words`: the measure's."""
+def answer_text(scene):
+    """The sentence that says what the study is for."""
     parts = []
-    for limit in answers_asked(measure):
+    for limit in ANSWERS:
         one = limit.chosen(scene)
         found = f"{one.setting()} ({result_text(limit, scene, one)})" if one else f"none, {limit.why_none(scene)}"
-        asked = f"least error ({words}) in" if limit.budget_s else "least time for"
+        asked = "least error (rms of body positions) in" if limit.budget_s else "least time for"
         parts.append(f"{asked} {limit.text()}: {found}")
     unknown = any(one.hard is None for one in scene.settings)
     text = "; ".join(parts) + (" (settings not held against the hard cases: --hard-cases stability.h5)." if unknown else ".")
     return text[0].upper() + text[1:]
 
 
-def answer_command(scene, measure):
+def answer_command(scene):
     """The line to copy for the answer to the frame's budget; nothing where there is none."""
-    best = answers_asked(measure)[0].chosen(scene)
+    best = ANSWERS[0].chosen(scene)
     return f"\n\nTo run with the first: {best.run_command()}" if best else ""

@@ -23,7 +23,7 @@ def bands(scene, limit, measure):
     found = [] if math.isnan(uncertainty_mm) else [charts.band(0, uncertainty_mm, "uncertainty of nature [mm]")]
     if limit.budget_s:
         found.append(line(1e3 * limit.budget_s, "x", "budget [ms]"))
-    if limit.tolerance_m and measure == limit.measure:
+    if limit.tolerance_m and measure == "rms":
         found.append(line(1e3 * limit.tolerance_m, "y", "tolerance [mm]"))
     return found
 
