@@ -15,6 +15,7 @@ PACKAGE = pathlib.Path(__file__).absolute().parent
 WEB = [PACKAGE / "web", PACKAGE / "web/charts"]
 JAVASCRIPT = [PACKAGE / "javascript", *(pathlib.Path("/usr/share/javascript") / name for name in ("chart.js", "three/build", "three/examples/js/controls"))]
 LIBRARIES = {"chart_js": "chart.min.js", "three_js": "three.min.js", "orbit_controls_js": "OrbitControls.js"}
+WITH_REPLAY = {"drawn_with": "three.js and Chart.js"}
 
 
 def asset(name):
@@ -45,13 +46,17 @@ def shown_section(section):
 
 
 def fill(template, fields):
-    """The template with each {{name}} replaced by a field, or else by the file of that name."""
-    return re.sub(r"\{\{(\w+)\}\}", lambda found: fields[found[1]] if found[1] in fields else asset(found[1]), asset(template))
+    """The template with each {{name}} replaced by a field, or else by the file of that name, which may be a template, too."""
+    def content(found):
+        name = found[1]
+        return fields[name] if name in fields else fill(name, fields) if name.endswith("_html") else asset(name)
+
+    return re.sub(r"\{\{(\w+)\}\}", content, asset(template))
 
 
 def page_of(report):
     sections = [shown_section(section) for section in report.sections if document.PAGE in section.shown_in]
-    return fill("charts_html", fields_of(report) | {"sections": safe_json(sections)})
+    return fill("charts_html", fields_of(report) | {"sections": safe_json(sections), "drawn_with": "Chart.js"})
 
 
 def fields_of(report):

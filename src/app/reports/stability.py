@@ -207,4 +207,4 @@ def run(words):
     study = read_study(one_file(options, "a study of stability", "stability.h5"), "stability")
     found = map_of(study, options.scene)
     deliver(report_of(study, found), options, study.tables["cases"],
-            lambda report: page.fill("map_html", page.fields_of(report) | {"map": page.safe_json(map_json(study, found))}))
+            lambda report: page.fill("map_html", page.fields_of(report) | page.WITH_REPLAY | {"map": page.safe_json(map_json(study, found))}))

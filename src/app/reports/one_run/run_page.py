@@ -222,7 +222,7 @@ def text_of(run, summary, most_bytes=MOST_POSE_BYTES):
               "replay": replay(run, Selection(run, most_bytes)),
               "provenance": {"line": page.joined(page.origin(run.attributes), f"page by {page.version_line()}"), "entries": []}}
     fields = {name: page.safe_json(block) for name, block in blocks.items()}
-    return page.fill("page_html", fields | {"title": html.escape(run.scene or "run", quote=True)})
+    return page.fill("page_html", fields | page.WITH_REPLAY | {"title": html.escape(run.scene or "run", quote=True)})
 
 
 def run(words):

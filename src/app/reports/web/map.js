@@ -99,20 +99,7 @@ pb.Map = class {
     if (replay === null) return;
     pb.about.scene = row.name;
     const data = pb.decodeReplay(replay);
-    if (this.replay) this.replay.show(data); else this.startReplay(data);
-  }
-
-  startReplay(data) {
-    try {
-      this.replay = new pb.Replay(data, new pb.Stage(this.byId('canvas'), data));
-    } catch (error) {
-      const message = this.byId('view-error');
-      message.textContent = `The 3D replay needs WebGL, which this browser does not offer (${error.message}).`;
-      message.hidden = false;
-      return;
-    }
-    const loop = (now) => { this.replay.tick(now); requestAnimationFrame(loop); };
-    requestAnimationFrame(loop);
+    if (this.replay) this.replay.show(data); else this.replay = pb.startReplay(data);
   }
 };
 

@@ -255,3 +255,19 @@ pb.Replay = class {
     this.draw();
   }
 };
+
+// The replay of this data on the page's canvas, drawn from now on; without WebGL a message there, and null.
+pb.startReplay = (data) => {
+  let replay;
+  try {
+    replay = new pb.Replay(data, new pb.Stage(document.getElementById('canvas'), data));
+  } catch (error) {
+    const message = document.getElementById('view-error');
+    message.textContent = `The 3D replay needs WebGL, which this browser does not offer (${error.message}).`;
+    message.hidden = false;
+    return null;
+  }
+  const loop = (now) => { replay.tick(now); requestAnimationFrame(loop); };
+  requestAnimationFrame(loop);
+  return replay;
+};
