@@ -98,7 +98,7 @@ REPEATS=$repeats SEEDS=$seeds "$jobs/figure8_9.sh" "$files/figure8_9" "${scenes[
 
 if [[ $small == no ]]; then
   echo "iterations and hard cases"
-  mpirun -n 2 pbstudy stability --most-work 12000 --poses 0 --quiet --progress never --output "$files/stability.h5" \
+  mpirun -n 2 pbstudy stability --most-work 12000 --quiet --progress never --output "$files/stability.h5" \
     --setting "quick iterations=5" "quick iterations=10" quick "quick iterations=40" "quick iterations=80"
 fi
 

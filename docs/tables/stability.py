@@ -17,7 +17,7 @@ VERDICTS = ("pass", "degraded", "broken")
 def study(folder, *options):
     """The file of `pbstudy stability`, run on two ranks: the numbers are those of any number of ranks."""
     path = folder / "stability.h5"
-    programs.run(["mpirun", "-n", "2", programs.BIN / "pbstudy", "stability", "--progress", "never", "--quiet", "--poses", "0",
+    programs.run(["mpirun", "-n", "2", programs.BIN / "pbstudy", "stability", "--progress", "never", "--quiet",
                   "-o", path, *options])
     return path
 

@@ -34,7 +34,7 @@ hash=$(hash_in log)
 [[ $hash =~ ^[0-9a-f]{16}$ ]] || fail "pbmpi printed no hash: $(cat log)"
 say "report" pbreport CrashSk.h5 --html CrashSk.html
 grep -q "three.js" CrashSk.html || fail "the page has no replay"
-say "study" mpirun -n 2 pbstudy stability --scene hard/free/bounce_1 --setting "sor" --poses 0 --quiet
+say "study" mpirun -n 2 pbstudy stability --scene hard/free/bounce_1 --setting "sor" --quiet
 say "job" /usr/share/pbmpi/jobs/sweep.sbatch CrashSk substeps 2 -- --frames 1
 
 say "module" python3 - "$hash" <<'PYTHON'

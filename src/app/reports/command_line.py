@@ -209,12 +209,12 @@ def put(text):
         raise WriteError(f"the report cannot be written to standard output ({error.strerror}); is the disk full?") from None
 
 
-def deliver(report, options, csv_columns=None, page_of=page.page_of):
-    """As the options ask: the page, which page_of(report) makes, the CSV, and on standard output JSON, Markdown or text."""
+def deliver(report, options, csv_columns=None):
+    """As the options ask: the page, the CSV, and on standard output JSON, Markdown or text."""
     if csv_columns is not None and options.csv:
         write_file(options.csv, document.csv(csv_columns))
     if getattr(options, "html", None):
-        write_file(options.html, page_of(report))
+        page.write(options.html, report)
     if options.json:
         put(document.json(report))
     elif getattr(options, "markdown", False):

@@ -25,7 +25,7 @@ class Column:
 @dataclasses.dataclass
 class Table:
     """Rows of cells under a header. `shown_in`: the printers that show it. `of_words`: Markdown aligns its cells to the left; `rule`: its
-    line below the header, if neither suits."""
+    line below the header, if neither suits; `looks`: pages give the cells of the first rows these classes."""
     title: str
     header: list
     rows: list
@@ -33,6 +33,7 @@ class Table:
     shown_in: tuple = EVERYWHERE
     of_words: bool = False
     rule: str = ""
+    looks: list = dataclasses.field(default_factory=list)
 
     @classmethod
     def of(cls, title, columns, rows, **others):

@@ -181,7 +181,7 @@ def case_cell(row):
 
 
 def case_table(found):
-    rows = [[scene.name, *map(case_cell, scene.results())] for scene in found.map.scenes]
+    rows = [[scene.name, *map(case_cell, scene.results)] for scene in found.map.scenes]
     return Table("Case by case", ["case", *found.map.settings], rows)
 
 

@@ -15,7 +15,6 @@ PACKAGE = pathlib.Path(__file__).absolute().parent
 WEB = [PACKAGE / "web", PACKAGE / "web/charts"]
 JAVASCRIPT = [PACKAGE / "javascript", *(pathlib.Path("/usr/share/javascript") / name for name in ("chart.js", "three/build", "three/examples/js/controls"))]
 LIBRARIES = {"chart_js": "chart.min.js", "three_js": "three.min.js", "orbit_controls_js": "OrbitControls.js"}
-WITH_REPLAY = {"drawn_with": "three.js and Chart.js"}
 
 
 def asset(name):
@@ -34,7 +33,7 @@ def safe_json(value):
 
 
 def shown_table(table):
-    return {"title": table.title, "header": table.header, "rows": table.rows}
+    return {"title": table.title, "header": table.header, "rows": table.rows, "looks": table.looks}
 
 
 def shown_section(section):

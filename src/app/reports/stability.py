@@ -4,14 +4,14 @@ import dataclasses
 import math
 import statistics
 
-from reports import map_page, page
+from reports import page
 from reports.command_line import Command, add_scene_option, deliver, one_file, parse
-from reports.document import MARKDOWN, TEXT, Column, Report, Section, Table
+from reports.document import MARKDOWN, PAGE, TEXT, Column, Report, Section, Table
 from reports.files import in_order_of, read_study
 from reports.words import NO_NUMBER, plural
 
 COMMAND = Command("stability", "Shows which settings hold the hard cases: the file of pbstudy stability. The word stability may be left "
-                  "out.", "stability.h5 [options]", page="a map of cases and settings; a click on a field shows its curves and its replay",
+                  "out.", "stability.h5 [options]", page="a map of cases and settings, and how to see each run",
                   markdown="print the map as a table instead", csv="all cases as comma-separated values", add_options=add_scene_option)
 
 PASS, DEGRADED, BROKEN, NOT_APPLICABLE = VERDICTS = ("pass", "degraded", "broken", "n/a")  # the last: the setting cannot run the case
@@ -19,19 +19,23 @@ PASS, DEGRADED, BROKEN, NOT_APPLICABLE = VERDICTS = ("pass", "degraded", "broken
 METRICS = ("nonfinite", "energy_gain", "energy_change", "linear_momentum", "angular_momentum", "joint_gap", "joint_gap_rms", "penetration",
            "escaped", "drift", "sink", "creep", "speed")
 MOST_BROKEN = 0.05  # share of the hard cases that a setting may break and still holds: the default breaks 2 of 99
+FRAME_S = 1 / 30  # of a run that shows a case, as near as its steps allow
+MAP_TEXT = ("Each case says what should happen, and how far from it a run may be: what a verdict rests on is in its field, and case by case below. "
+            "Green: as it should be; yellow: degraded; red: broken; grey: cannot be run. The commands below write a file whose page, "
+            "pbreport case.h5 --html case.html, has the curves and the replay.")
 DRIFT_BANDS = ("< 1 cm", "1-10 cm", "10-100 cm", "> 100 cm", "inf/NaN")
 
 
 @dataclasses.dataclass
 class Scene:
-    """A hard case. `facts`: a row of /cases, for what all of its rows have in common. `cells`: {index of the row: row}, one for each of the
-    map's settings."""
+    """A hard case. `results`: its rows of /cases, one for each of the map's settings."""
     name: str
-    facts: object
-    cells: dict = dataclasses.field(default_factory=dict)
+    results: list = dataclasses.field(default_factory=list)
 
-    def results(self):
-        return list(self.cells.values())
+    @property
+    def facts(self):
+        """What all of its rows have in common."""
+        return self.results[0]
 
 
 @dataclasses.dataclass
@@ -42,7 +46,7 @@ class Map:
 
     def rows_of(self, place, group=None):
         """The rows of a setting, of all cases or of a group's."""
-        return [scene.results()[place] for scene in self.scenes if group in (None, scene.facts.group)]
+        return [scene.results[place] for scene in self.scenes if group in (None, scene.facts.group)]
 
     def counts(self):
         """How many cases have each verdict, setting by setting."""
@@ -56,8 +60,8 @@ def count(rows):
 
 def map_of(study, names=()):
     scenes, settings = {}, {}
-    for index, row in enumerate(study.rows()):
-        scenes.setdefault(row.scene, Scene(row.scene, row)).cells[index] = row
+    for row in study.rows():
+        scenes.setdefault(row.scene, Scene(row.scene)).results.append(row)
         settings[row.setting] = None
     return Map(list(settings), in_order_of(names, list(scenes.values()), lambda scene: scene.name))
 
@@ -125,10 +129,20 @@ RESULT = (Column("setting", lambda row: row.setting), Column("verdict", lambda r
           Column("decided by", lambda row: decided_text(row) or row.decided_by))
 
 
+def command(row):
+    """That makes the run of a case anew; none for a world that only this study cuts."""
+    if row.verdict == NOT_APPLICABLE or row.cut:
+        return ""
+    steps = max(1, round(FRAME_S / row.dt))
+    return (f"pbmpi --scene {row.scene} {row.options} --warmup 0 --steps-per-frame {steps} --frames {math.ceil(row.seconds / (steps * row.dt))} "
+            "--output case.h5")
+
+
 def scene_section(scene):
     one = scene.facts
-    return Section(f"{scene.name} (row {one.row}, {one.bodies} {'body' if one.bodies == 1 else 'bodies'}, {one.seconds:g} s): {one.oracle}",
-                   tables=[Table.of("", RESULT, scene.results())], shown_in=(TEXT,))
+    return Section(f"{scene.name} (row {one.row}, {plural(one.bodies, 'body', 'bodies')}, {one.seconds:g} s): {one.oracle}",
+                   tables=[Table.of("", RESULT, scene.results, shown_in=(TEXT,)),
+                           Table.of("", (*RESULT, Column("run", command)), scene.results, shown_in=(PAGE,))], shown_in=(TEXT, PAGE))
 
 
 def counts_table(found):
@@ -141,10 +155,20 @@ def markdown_cell(row):
 
 def map_table(found):
     """A case a row and a setting a column; below, how many cases have each verdict."""
-    rows = [[str(scene.facts.row), f"`{scene.name.partition('/')[2] or scene.name}`", *map(markdown_cell, scene.results())]
+    rows = [[str(scene.facts.row), f"`{scene.name.partition('/')[2] or scene.name}`", *map(markdown_cell, scene.results)]
             for scene in found.scenes]
-    counts = [["", verdict, *(str(one[verdict]) for one in found.counts())] for verdict in VERDICTS]
-    return Table("", ["row", "case", *found.settings], rows + counts, of_words=True)
+    return Table("", ["row", "case", *found.settings], rows + counts_rows(found), of_words=True)
+
+
+def coloured_map(found):
+    """The same for pages, each verdict in its colour."""
+    rows = [[str(scene.facts.row), scene.name, *(decided_text(row) or row.verdict for row in scene.results)] for scene in found.scenes]
+    looks = [["", "", *(row.verdict.replace("/", "") for row in scene.results)] for scene in found.scenes]
+    return Table("Map of cases and settings", ["row", "case", *found.settings], rows + counts_rows(found), looks=looks)
+
+
+def counts_rows(found):
+    return [["", verdict, *(str(one[verdict]) for one in found.counts())] for verdict in VERDICTS]
 
 
 def cell_json(row):
@@ -157,43 +181,14 @@ def cell_json(row):
 def scene_json(scene):
     one = scene.facts
     return {"scene": scene.name, "group": one.group, "row": one.row, "oracle": one.oracle, "source": one.source, "bodies": one.bodies,
-            "seconds": one.seconds, "results": list(map(cell_json, scene.results()))}
-
-
-def severity(row):
-    """How dark a field is: 0 for a right number, 1 at a thousand times its limit or more."""
-    if row.verdict in (PASS, NOT_APPLICABLE):
-        return 0.0
-    if not row.limit_right > 0 or not math.isfinite(row.value):
-        return 1.0
-    return min(max(math.log10(max(row.value / row.limit_right, 1.0)) / 3, 0.0), 1.0)
-
-
-def detail(row):
-    if row.verdict == NOT_APPLICABLE:
-        return row.decided_by
-    return (f"{decided_text(row)}; right up to {bound_text(row.limit_right, row)}, broken beyond {bound_text(row.limit_broken, row)}. {row.row_visits:.0f} row "
-            f"visits and {1e6 * row.step_time:.3g} us of processor time a step.")
-
-
-def map_json(study, found):
-    """The page's map; a field has what its click opens."""
-    recorded = map_page.Recorded(study)
-    rows = []
-    for scene in found.scenes:
-        still = recorded.still(scene.name)
-        cells = [{"verdict": row.verdict, "label": "" if row.verdict == PASS else decided_text(row), "detail": detail(row),
-                  "severity": severity(row), "curves": recorded.curves(index), "replay": recorded.replay(index, still, row.dt)}
-                 for index, row in scene.cells.items()]
-        one = scene.facts
-        rows.append({"name": scene.name, "group": one.group, "oracle": one.oracle, "source": one.source, "cells": cells})
-    return {"columns": found.settings, "rows": rows}
+            "seconds": one.seconds, "results": list(map(cell_json, scene.results))}
 
 
 def report_of(study, found):
     line, entries = page.origin_of_study(study)
     subtitle = f"{plural(len(found.scenes), 'hard case')}, {plural(len(found.settings), 'setting')}; {study.attributes['command_line']}"
-    sections = [Section(tables=[counts_table(found)], shown_in=(TEXT,)), *map(scene_section, found.scenes),
+    sections = [Section(tables=[counts_table(found)], shown_in=(TEXT,)), Section("", MAP_TEXT, tables=[coloured_map(found)], shown_in=(PAGE,)),
+                *map(scene_section, found.scenes),
                 Section(tables=[map_table(found)], shown_in=(MARKDOWN,))]
     head = f"study: stability; {plural(len(found.scenes), 'case')}, each judged by the bounds in its scene file\n"
     numbers = {"settings": found.settings, "cases": list(map(scene_json, found.scenes))}
@@ -206,5 +201,4 @@ def run(words):
         return
     study = read_study(one_file(options, "a study of stability", "stability.h5"), "stability")
     found = map_of(study, options.scene)
-    deliver(report_of(study, found), options, study.tables["cases"],
-            lambda report: page.fill("map_html", page.fields_of(report) | page.WITH_REPLAY | {"map": page.safe_json(map_json(study, found))}))
+    deliver(report_of(study, found), options, study.tables["cases"])

@@ -19,8 +19,9 @@ def number(value, form, scale=1):
     return f"{scale * value:{form}}" if value is not None and math.isfinite(value) else NO_NUMBER
 
 
-def plural(count, noun):
-    return f"{count} {noun}{'' if count == 1 else 's'}"
+def plural(count, noun, several=""):
+    """`several`: the noun's plural, if not with an s."""
+    return f"{count} {noun if count == 1 else several or noun + 's'}"
 
 
 def stepper_in(setting):

@@ -137,7 +137,7 @@ class Engines(ProgramTest):
         if not self.in_build("mujoco"):
             self.skipTest("this build has no MuJoCo")
         result = self.run_command([PBSTUDY, "stability", "--scene", "hard/sleep/at_rest", "hard/free/tumbling_box", "--setting", "mujoco",
-                                   "--output", "stability.h5", "--poses", "0", "--progress", "never"])
+                                   "--output", "stability.h5", "--progress", "never"])
         self.assertEqual(result.returncode, 0, result.stderr)
         with h5py.File(self.path("stability.h5")) as file:
             verdicts, reasons = (file[f"cases/{name}"].asstr()[:] for name in ("verdict", "decided_by"))
@@ -147,7 +147,7 @@ class Engines(ProgramTest):
     def test_studies_take_them_when_they_are_named(self):
         for engine in self.each():
             result = self.run_command([PBSTUDY, "stability", "--scene", "hard/rest/column20", "--setting", f"{engine} iterations=20",
-                                       "--output", f"{engine}.stability.h5", "--poses", "0", "--progress", "never"])
+                                       "--output", f"{engine}.stability.h5", "--progress", "never"])
             self.assertEqual(result.returncode, 0, result.stderr)
             result = self.run_command([PBSTUDY, "accuracy", "--scene", "2-Cars", "--stepper", engine, "--iterations", "5", "20", "--frames",
                                        "2", "--repeats", "1", "--floor-seeds", "1", "--nature-steps", "24", "--rest-seconds", "0", "--estimates", "0",

@@ -36,7 +36,7 @@ def read_list():
 class HardCases(ProgramTest):
     def results(self):
         study = self.run_command(["mpirun", "-n", "2", os.path.join(BIN, "pbstudy"), "stability", "--most-work",
-                                  str(MOST_WORK), "--poses", "0", "--output", "study.h5", "--quiet"])
+                                  str(MOST_WORK), "--output", "study.h5", "--quiet"])
         self.assertEqual(study.returncode, 0, study.stderr)
         report = self.json(self.report("study.h5", "--json"))
         return {(case["scene"], cell["setting"]): cell for case in report["cases"] for cell in case["results"]

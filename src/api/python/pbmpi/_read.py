@@ -18,7 +18,7 @@ def read(path: Union[Path, Sequence[Path]], table: Optional[str] = None) -> Any:
     """A file of pbmpi as a Run, or a table of pbstudy, `pbreport diff` or `pbreport ensemble` as a pandas.DataFrame.
 
     path: the file; of a run that was saved and resumed all its files, in any order.
-    table: of another file than a run's, which of its tables, e.g. "curves" of `pbstudy stability`; None: "cases" of a study, else
+    table: of another file than a run's, which of its tables, e.g. "differences" of `pbstudy stability`; None: "cases" of a study, else
     "frames". attrs of the table have "units" by column, "filetype", "attributes", "parameters" and "tables", all that there are.
 
     FileNotFoundError; ValueError for a file of another kind or layout, or files that are not of one run; ImportError without

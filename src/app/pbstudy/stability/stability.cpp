@@ -1,5 +1,3 @@
-#include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +9,6 @@
 #include "app/pbstudy/study/study_runner.h"
 #include "app/pbstudy/study/table_columns.h"
 #include "io/table/table_file.h"
-#include "model/names.h"
 #include "stability/cases/verdict.h"
 
 namespace pbmpi::app {
@@ -96,77 +93,6 @@ std::vector<io::TableColumn> stability_columns(const StabilityRows& rows) {
   return columns;
 }
 
-/// Tables "curves" and "poses".
-std::map<std::string, std::vector<io::TableColumn>> stability_tables(const std::vector<CurvePoint>& points,
-                                                                     const std::vector<RecordedPose>& poses) {
-  std::vector<io::TableColumn> curves = {column("case", "", points, &CurvePoint::case_index),
-                                         column("time", "s", points, &CurvePoint::time_s),
-                                         column("energy", "J", points, &CurvePoint::energy_j),
-                                         column("joint_gap", "m", points, &CurvePoint::joint_gap_m),
-                                         column("penetration", "m", points, &CurvePoint::penetration_m),
-                                         column("drift", "m", points, &CurvePoint::drift_m)};
-  std::vector<io::TableColumn> replay = {
-      column("case", "", poses, &RecordedPose::case_index), column("time", "s", poses, &RecordedPose::time_s),
-      column("body", "", poses, &RecordedPose::body), wide_column("pose", "", poses, &RecordedPose::pose)};
-  return {{"curves", std::move(curves)}, {"poses", std::move(replay)}};
-}
-
-struct BodyOfScene {
-  const SceneModel& scene;
-  const model::Body& body;
-};
-
-struct GeomOfScene {
-  const SceneModel& scene;
-  const model::Geom& geom;
-
-  std::string kind() const {
-    return std::string(name_of(scene.model->actors[static_cast<std::size_t>(geom.actor)].kind));
-  }
-};
-
-/// Position [m], orientation (w, x, y, z).
-void append(const model::Pose& pose, std::vector<double>& numbers) {
-  const model::Vec3& at = pose.position;
-  const model::Quat& turn = pose.orientation;
-  numbers.insert(numbers.end(), {at.x(), at.y(), at.z(), turn.w, turn.x, turn.y, turn.z});
-}
-
-std::vector<io::TableColumn> body_columns(const std::vector<BodyOfScene>& bodies) {
-  using Row = const BodyOfScene&;
-  std::vector<double> poses;
-  for (Row row : bodies) append(row.body.pose, poses);
-  return {column("scene", "", bodies, [](Row row) { return row.scene.name; }),
-          column("name", "", bodies, [](Row row) { return row.body.name; }),
-          {"pose", "", std::move(poses), 7}};
-}
-
-std::vector<io::TableColumn> geom_columns(const std::vector<GeomOfScene>& geoms) {
-  using Row = const GeomOfScene&;
-  std::vector<double> sizes, poses;
-  for (Row row : geoms) {
-    sizes.insert(sizes.end(), row.geom.size.begin(), row.geom.size.end());
-    append(row.geom.local, poses);
-  }
-  return {column("scene", "", geoms, [](Row row) { return row.scene.name; }),
-          column("body", "", geoms, [](Row row) { return row.geom.body; }),
-          column("kind", "", geoms, [](Row row) { return row.kind(); }),
-          column("shape", "", geoms, [](Row row) { return std::string(name_of(row.geom.shape)); }),
-          {"size", "m", std::move(sizes), 3},
-          {"local", "", std::move(poses), 7}};
-}
-
-/// What a replay shows of scenes at rest: tables "bodies" and "geoms", scene by scene.
-std::map<std::string, std::vector<io::TableColumn>> replay_tables(const std::vector<SceneModel>& scenes) {
-  std::vector<BodyOfScene> bodies;
-  std::vector<GeomOfScene> geoms;
-  for (const SceneModel& scene : scenes) {
-    for (const model::Body& body : scene.model->bodies) bodies.push_back({scene, body});
-    for (const model::Geom& geom : scene.model->geoms) geoms.push_back({scene, geom});
-  }
-  return {{"bodies", body_columns(bodies)}, {"geoms", geom_columns(geoms)}};
-}
-
 /// "9 of 70 broken" for each setting, for the end of the run.
 std::string stability_note(const StabilityRows& rows) {
   const std::vector<Judgement> judgements = judge_all(rows);
@@ -184,15 +110,13 @@ std::string stability_note(const StabilityRows& rows) {
   return text;
 }
 
-using Outcomes = CaseOutcomes<StabilityResult, CurvePoint, RecordedPose>;
-
-Outcomes run_cases(const StabilityOptions& options, const std::vector<StabilityCase>& cases,
-                   StudyRunner& runner) {
-  return runner.run<StabilityResult, CurvePoint, RecordedPose>(cases, cost_of, [&](std::size_t i) {
+std::vector<StabilityResult> run_cases(const StabilityOptions& options,
+                                       const std::vector<StabilityCase>& cases, StudyRunner& runner) {
+  const auto run_one = [&](std::size_t i) {
     const StabilityCase& one = cases[i];
-    const HardScene hard = build_hard_scene(runner.scene(one.scene), one.stepper.dt_s, options.seed);
-    return run_stability_case(one, hard, options.most_poses);
-  });
+    return run_stability_case(one, build_hard_scene(runner.scene(one.scene), one.stepper.dt_s, options.seed));
+  };
+  return runner.run<StabilityResult>(cases, cost_of, run_one).results;
 }
 
 }  // namespace
@@ -202,25 +126,18 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
   StudyRunner runner(comm, "stability", options);
   const std::vector<StabilityCase> cases = make_stability_cases(runner.scenes(), options);
   runner.open_output();
-  const Outcomes measured = run_cases(options, cases, runner);
+  const std::vector<StabilityResult> results = run_cases(options, cases, runner);
   runner.write([&] {
-    const std::vector<RecordedPose>& poses = measured.rows_of<RecordedPose>();
-    std::set<std::string> with_poses;
-    for (const RecordedPose& pose : poses)
-      with_poses.insert(runner.scene(cases[static_cast<std::size_t>(pose.case_index)].scene).source.name);
     std::vector<stability::HardCase> hard_cases;
-    std::vector<SceneModel> models, replayed;
+    std::vector<SceneModel> models;
     for (const StudyScene& scene : runner.scenes()) {
       HardScene hard = build_hard_scene(scene, scene.dt_s, options.seed);
       hard_cases.push_back(std::move(hard.hard_case));
       models.push_back({scene.source.name, hard.model});
-      if (with_poses.contains(scene.source.name)) replayed.push_back(models.back());
     }
-    const StabilityRows rows{runner.scenes(), options.settings, hard_cases, cases, measured.results};
+    const StabilityRows rows{runner.scenes(), options.settings, hard_cases, cases, results};
     StudyContent content;
     content.cases = stability_columns(rows);
-    content.tables = stability_tables(measured.rows_of<CurvePoint>(), poses);
-    content.tables.merge(replay_tables(replayed));
     content.tables["differences"] = engine_differences(models, steppers_of(cases));
     content.note = stability_note(rows);
     content.next = " --html stability.html";

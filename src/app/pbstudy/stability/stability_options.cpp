@@ -33,9 +33,6 @@ po::options_description options_description() {
        "leave out cases of more than so many bodies x steps; default: none");
   po::options_description how("How to measure");
   add_seed_option("of the scene's variation and of the solver", how);
-  how.add_options()  //
-      ("poses", po::value<int>()->default_value(1200)->value_name("N"),
-       "most poses of a case that the file keeps for the replay; 0: none");
   po::options_description all;
   all.add(what).add(how).add(what_to_write("stability.h5")).add(common_options_description());
   return all;
@@ -136,7 +133,6 @@ StabilityOptions parse_stability_options(const std::vector<std::string>& args) {
   if (values.count("scene") == 0) options.scenes = hard_case_names();
   options.settings = crossed(list<std::string>(values, "setting", default_stability_settings()),
                              list<std::string>(values, "dt", {}));
-  options.most_poses = given(values, "poses", 0).value();
   options.most_work = values.count("most-work") != 0 ? values["most-work"].as<double>()
                                                      : std::numeric_limits<double>::infinity();
   core::require_input(options.most_work > 0, "--most-work: it must be above 0");

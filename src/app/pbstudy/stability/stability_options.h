@@ -29,8 +29,7 @@ std::string setting_text(const StabilitySetting& setting);
 
 struct StabilityOptions : StudyOptions {
   std::vector<StabilitySetting> settings;
-  int most_poses = 1200;  ///< recorded per case for the replay
-  double most_work = 0;   ///< body-steps per case; cases with more are left out
+  double most_work = 0;  ///< body-steps per case; cases with more are left out
 };
 
 /// Throws core::InputError with one clear message.

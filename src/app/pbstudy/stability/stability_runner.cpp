@@ -31,32 +31,24 @@ std::string why_not(const StabilityCase& one, const HardScene& hard, double most
 }
 
 using model::State;
-using stability::Metric;
 
 /// Longer runs are observed only this often.
 constexpr std::int64_t most_looks = 20'000;
 
-/// Observes the states of a run: measures them, and keeps curves and poses.
+/// Observes the states of a run and measures them.
 class Recorder {
  public:
-  Recorder(const StabilityCase& one, const HardScene& hard, int most_poses)
-      : case_(one),
-        watch_(hard.hard_case, *hard.model, one.stepper.dt_s),
-        most_moments_(one.num_bodies > 0 ? std::min(25, most_poses / one.num_bodies) : 0) {}
+  Recorder(const StabilityCase& one, const HardScene& hard)
+      : watch_(hard.hard_case, *hard.model, one.stepper.dt_s) {}
 
   void see(const State& state, const stepping::Observables& seen, std::int64_t step) {
     watch_.see(state, seen, step);
     row_visits_ += seen.row_visits;
     ++num_looks_;
-    worst_gap_m_ = std::max(worst_gap_m_, seen.joint_gap_m);
-    worst_penetration_m_ = std::max(worst_penetration_m_, seen.max_penetration_m);
-    if (step * most_curve_points >= (num_points_ + 1) * case_.num_steps) add_point(seen, step);
-    if (step * most_moments_ >= (num_moments_ + 1) * case_.num_steps) add_poses(state, step);
   }
 
   void finish() {
     const stability::CaseMeasurement measured = watch_.result();
-    StabilityResult& result = outcome.result;
     result.metrics = measured.metrics;
     result.expected_off.fill(NAN);
     std::ranges::copy(measured.expected_off, result.expected_off.begin());
@@ -65,34 +57,12 @@ class Recorder {
     result.row_visits = num_looks_ > 0 ? row_visits_ / static_cast<double>(num_looks_) : 0;
   }
 
-  StabilityOutcome outcome;
+  StabilityResult result;
 
  private:
-  double time_of(std::int64_t step) const { return static_cast<double>(step) * case_.stepper.dt_s; }
-
-  void add_point(const stepping::Observables& seen, std::int64_t step) {
-    ++num_points_;
-    outcome.rows_of<CurvePoint>().push_back(
-        {0, time_of(step), seen.energy_j, worst_gap_m_, worst_penetration_m_, watch_.metric(Metric::drift)});
-    worst_gap_m_ = worst_penetration_m_ = 0;
-  }
-
-  void add_poses(const State& state, std::int64_t step) {
-    ++num_moments_;
-    for (std::size_t body = 0; body < state.position.size(); ++body) {
-      const model::Vec3& at = state.position[body];
-      const model::Quat& turn = state.orientation[body];
-      outcome.rows_of<RecordedPose>().push_back({0,
-                                                 static_cast<std::int32_t>(body),
-                                                 time_of(step),
-                                                 {at.x(), at.y(), at.z(), turn.w, turn.x, turn.y, turn.z}});
-    }
-  }
-
-  const StabilityCase& case_;
   stability::CaseWatch watch_;
-  std::int64_t most_moments_, num_moments_ = 0, num_points_ = 0, num_looks_ = 0;
-  double worst_gap_m_ = 0, worst_penetration_m_ = 0, row_visits_ = 0;
+  std::int64_t num_looks_ = 0;
+  double row_visits_ = 0;
 };
 
 void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& recorder) {
@@ -108,7 +78,7 @@ void run_whole(const StabilityCase& one, const HardScene& hard, Recorder& record
     seconds += core::thread_cpu_s() - start_s;
     step += num_steps;
     recorder.see(stepper->state(0), stepper->observables(0), step);
-    recorder.outcome.result.step_time_s = seconds / static_cast<double>(step);
+    recorder.result.step_time_s = seconds / static_cast<double>(step);
     if (stepper->observables(0).nonfinite > 0) return;
   }
 }
@@ -151,7 +121,7 @@ void run_cut(const StabilityCase& one, const HardScene& hard, Recorder& recorder
   driver.add_observer(observer);
   const double start_s = core::thread_cpu_s();
   const mpi::WorldRunResult result = driver.run();
-  recorder.outcome.result.step_time_s =
+  recorder.result.step_time_s =
       (core::thread_cpu_s() - start_s) / static_cast<double>(std::max<std::int64_t>(1, result.frames_done));
 }
 
@@ -211,18 +181,18 @@ stability::CaseMeasurement StabilityResult::measurement(const stability::HardCas
   return measured;
 }
 
-StabilityOutcome run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses) {
+StabilityResult run_stability_case(const StabilityCase& one, const HardScene& hard) {
   core::require_input(hard.hard_case.expectations.size() <= most_expectations,
                       "[[case.expect]]: at most " + std::to_string(most_expectations) + " of a case");
-  Recorder recorder(one, hard, most_poses);
-  if (!one.not_applicable.empty()) return recorder.outcome;
+  Recorder recorder(one, hard);
+  if (!one.not_applicable.empty()) return recorder.result;
   if (one.cut) {
     run_cut(one, hard, recorder);
   } else {
     run_whole(one, hard, recorder);
   }
   recorder.finish();
-  return recorder.outcome;
+  return recorder.result;
 }
 
 }  // namespace pbmpi::app

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "app/pbstudy/stability/stability_options.h"
-#include "app/pbstudy/study/case_outcome.h"
 #include "app/pbstudy/study/study_scene.h"
 #include "stability/cases/case_watch.h"
 #include "stability/cases/hard_case.h"
@@ -44,25 +43,6 @@ std::vector<StabilityCase> make_stability_cases(const std::vector<StudyScene>& s
 /// Expected, in any unit.
 double cost_of(const StabilityCase& one);
 
-/// A point of a case's curves: the worst values from the point before until `time_s`.
-struct CurvePoint {
-  std::int32_t case_index = 0;
-  double time_s = 0;
-  double energy_j = 0;  ///< at `time_s`
-  double joint_gap_m = 0;
-  double penetration_m = 0;
-  double drift_m = 0;  ///< largest so far
-};
-inline constexpr int most_curve_points = 100;
-
-/// The pose of a body at a moment of a case.
-struct RecordedPose {
-  std::int32_t case_index = 0;
-  std::int32_t body = 0;
-  double time_s = 0;
-  std::array<double, 7> pose{};  ///< position [m], orientation (w, x, y, z); world frame
-};
-
 /// The most expectations of a case; more are refused.
 inline constexpr std::size_t most_expectations = 24;
 
@@ -79,9 +59,6 @@ struct StabilityResult {
   stability::CaseMeasurement measurement(const stability::HardCase& hard_case) const;
 };
 
-using StabilityOutcome = CaseOutcome<StabilityResult, CurvePoint, RecordedPose>;
-
-/// With at most `most_poses` poses, at evenly spaced moments.
-StabilityOutcome run_stability_case(const StabilityCase& one, const HardScene& hard, int most_poses);
+StabilityResult run_stability_case(const StabilityCase& one, const HardScene& hard);
 
 }  // namespace pbmpi::app

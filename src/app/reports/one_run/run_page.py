@@ -1,6 +1,8 @@
 """The page of one run: its facts, plots over its frames, and a replay of its bodies (web/page.html).
 
-pbreport has checked the run's file, and computes the summary: the document of pbreport --json."""
+pbreport has checked the run's file, and computes the summary: the document of pbreport --json. Arrays are in base64, numbers
+little-endian and in single precision, but for indices."""
+import base64
 import html
 import json
 
@@ -8,7 +10,6 @@ import numpy as np
 
 from reports import page
 from reports.files import write_file
-from reports.map_page import packed
 from reports.one_run.rigid import norm
 from reports.runs import PHASES, Run
 from reports.samples import total
@@ -20,6 +21,11 @@ PREFERRED_RECORDS = 600  # more frames than this, 20 s at 30 Hz, are left out be
 THREE_POSES_BYTES = 7 * 4 * 4  # seven single-precision numbers each; three bytes are four characters in base64
 KINDS = ("ground", "ramp", "wall", "car", "tank", "human", "centipede", "projectile", "prop")  # of actors, as the legend has them
 MM = 1e3
+
+
+def packed(values, kind="f4"):
+    """`kind`: numpy's, e.g. i4."""
+    return base64.b64encode(np.asarray(values, f"<{kind}").tobytes()).decode("ascii")
 
 
 def counted(count, one, many):
@@ -222,7 +228,7 @@ def text_of(run, summary, most_bytes=MOST_POSE_BYTES):
               "replay": replay(run, Selection(run, most_bytes)),
               "provenance": {"line": page.joined(page.origin(run.attributes), f"page by {page.version_line()}"), "entries": []}}
     fields = {name: page.safe_json(block) for name, block in blocks.items()}
-    return page.fill("page_html", fields | page.WITH_REPLAY | {"title": html.escape(run.scene or "run", quote=True)})
+    return page.fill("page_html", fields | {"drawn_with": "three.js and Chart.js", "title": html.escape(run.scene or "run", quote=True)})
 
 
 def run(words):

@@ -53,14 +53,24 @@ pb.start = () => {
   pb.showHeader();
   pb.showPlots();
   pb.showProvenance();
-  const replay = pb.startReplay(pb.decodeReplay(pb.json('replay-data')));
-  window.pbreplay = {ready: false};
-  if (replay === null) return;
+  const data = pb.decodeReplay(pb.json('replay-data'));
+  let replay;
+  try {
+    replay = new pb.Replay(data, new pb.Stage(document.getElementById('canvas'), data));
+  } catch (error) {
+    const message = document.getElementById('view-error');
+    message.textContent = `The 3D replay needs WebGL, which this browser does not offer (${error.message}).`;
+    message.hidden = false;
+    window.pbreplay = {ready: false};
+    return;
+  }
   replay.onFrame = (frame) => pb.framePlots.setCursor(frame);
   pb.framePlots.onChoose = (frame) => { replay.pause(); replay.setFrame(replay.placeOf(frame)); };
   pb.readAddress(replay);
   window.addEventListener('hashchange', () => pb.readAddress(replay));
   window.pbreplay = pb.publish(replay);
+  const loop = (now) => { replay.tick(now); requestAnimationFrame(loop); };
+  requestAnimationFrame(loop);
 };
 
 pb.start();

@@ -11,14 +11,9 @@ pb.element = (tag, properties, ...children) => {
   return node;
 };
 
-// Calls `draw` whenever the browser's wish for light or dark changes, or its width between phone and desk. Returns what
-// ends that.
+// Calls `draw` whenever the browser's wish for light or dark changes, or its width between phone and desk.
 pb.onLookChange = (draw) => {
-  const end = new AbortController();
-  for (const query of ['(prefers-color-scheme: dark)', '(max-width: 640px)']) {
-    matchMedia(query).addEventListener('change', draw, {signal: end.signal});
-  }
-  return () => end.abort();
+  for (const query of ['(prefers-color-scheme: dark)', '(max-width: 640px)']) matchMedia(query).addEventListener('change', draw);
 };
 
 // The colour of this name in theme.css.

@@ -27,8 +27,7 @@ pb.hullSolid = (corners) => {
 // The solids of a geom: name, place along the local z axis [m], scale, whether upside down.
 pb.solidsOf = (shape, [a, b, c], hull) => {
   switch (shape) {
-    // Without its surface, as in the file of a study, a hull is drawn as an ellipsoid.
-    case 'hull': return [hull < 0 ? {solid: 'ball', z: 0, scale: [a / 2, b / 2, c / 2]} : {solid: `hull${hull}`, z: 0, scale: [1, 1, 1]}];
+    case 'hull':
     case 'mesh': return hull < 0 ? [] : [{solid: `hull${hull}`, z: 0, scale: [1, 1, 1]}];
     case 'sphere': return [{solid: 'ball', z: 0, scale: [a, a, a]}];
     case 'box': return [{solid: 'box', z: 0, scale: [a, b, c]}];

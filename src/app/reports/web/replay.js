@@ -23,12 +23,7 @@ pb.Replay = class {
     this.onFrame = () => {};
     stage.onRepaint = () => this.refresh();
     this.listen();
-    this.show(replay);
-  }
-
-  // Shows this replay from its start, and no longer the one before.
-  show(replay) {
-    this.data = this.stage.replay = replay;
+    this.data = replay;
     this.poses = new pb.Poses(replay);
     this.frame = 0;  // fractional while playing
     this.playing = false;
@@ -132,7 +127,7 @@ pb.Replay = class {
   // The frame's number as plots count it: where not all frames were recorded, or the replay shows every k-th only, numbers
   // have gaps.
   numberOf(frame) {
-    return this.data.number ? this.data.number[frame] : frame;
+    return this.data.number[frame];
   }
 
   // The shown frame that is nearest to a number.
@@ -254,20 +249,4 @@ pb.Replay = class {
     if (this.ownView) this.stage.resize(); else this.resetCamera();
     this.draw();
   }
-};
-
-// The replay of this data on the page's canvas, drawn from now on; without WebGL a message there, and null.
-pb.startReplay = (data) => {
-  let replay;
-  try {
-    replay = new pb.Replay(data, new pb.Stage(document.getElementById('canvas'), data));
-  } catch (error) {
-    const message = document.getElementById('view-error');
-    message.textContent = `The 3D replay needs WebGL, which this browser does not offer (${error.message}).`;
-    message.hidden = false;
-    return null;
-  }
-  const loop = (now) => { replay.tick(now); requestAnimationFrame(loop); };
-  requestAnimationFrame(loop);
-  return replay;
 };

@@ -11,12 +11,12 @@ pb.addChart = (parent, chart) => {
 // A column is one of numbers if all its cells are short; such cells do not wrap.
 pb.addTable = (parent, table) => {
   const wide = table.header.map((_, column) => table.rows.some((row) => (row[column] || '').length > 24));
-  const line = (tag, cells) => pb.element('tr', {}, ...cells.map((cell, column) =>
-      pb.element(tag, {className: wide[column] ? 'words' : ''}, cell)));
+  const line = (tag, cells, looks = []) => pb.element('tr', {}, ...cells.map((cell, column) =>
+      pb.element(tag, {className: [wide[column] && 'words', looks[column]].filter(Boolean).join(' ')}, cell)));
   const head = line('th', table.header);
   for (const cell of head.children) cell.scope = 'col';
   parent.append(pb.element('h3', {className: 'table-title'}, table.title), pb.scrollable(pb.element('div', {className: 'table'},
-      pb.element('table', {}, pb.element('thead', {}, head), pb.element('tbody', {}, ...table.rows.map((cells) => line('td', cells))))),
+      pb.element('table', {}, pb.element('thead', {}, head), pb.element('tbody', {}, ...table.rows.map((cells, row) => line('td', cells, table.looks[row]))))),
       table.title));
 };
 

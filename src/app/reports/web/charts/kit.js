@@ -93,7 +93,7 @@ pb.setChartDefaults = () => {
 };
 
 // Draws the configuration of Chart.js that `make` returns into `area`, with a key below it; again when the look of the
-// page changes. Calls `drawn` with each Chart. Returns what ends all that.
+// page changes. Calls `drawn` with each Chart.
 pb.draw = (area, label, make, drawn = () => {}) => {
   let chart, canvas, key;
   const draw = () => {
@@ -138,6 +138,5 @@ pb.draw = (area, label, make, drawn = () => {}) => {
     drawn(chart);
   };
   draw();
-  const stop = pb.onLookChange(draw);
-  return () => { stop(); chart.destroy(); };
+  pb.onLookChange(draw);
 };
