@@ -49,7 +49,7 @@ class Costs:
         return max(self.message_overhead, self.message_gap)
 
 
-# By timed part: the costs that its time is a sum of, and how often each counts in a case. move: costs are uneven, so no fit uses it.
+# By timed part: the costs that its time is a sum of, and how often each counts in a case.
 TERMS = {"frame": (("frame", "world_frame", "world_step", "body_frame"),
                    lambda case: (1, case.worlds, case.worlds * case.steps, case.worlds * case.bodies)),
          "unpack": (("root_unpack_world", "root_unpack_body"), lambda case: (case.worlds, case.worlds * case.bodies)),
@@ -59,8 +59,7 @@ TERMS = {"frame": (("frame", "world_frame", "world_step", "body_frame"),
          "bodies": (("hash_body",), lambda case: (case.worlds * case.bodies,)),
          "message": (("message", "message_byte"), lambda case: (1, case.bytes)),
          "send": (("message_overhead",), lambda case: (1,)),
-         "receive": (("message_gap",), lambda case: (1,)),
-         "move": ((), None)}
+         "receive": (("message_gap",), lambda case: (1,))}
 
 
 def fit(terms, seconds):
@@ -82,7 +81,7 @@ def fit_costs(cases):
     found = {}
     for part, (names, terms_of) in TERMS.items():
         timed = [case for case in cases if case.part == part and case.seconds > 0]
-        if names and timed:
+        if timed:
             found.update(zip(names, map(float, fit(list(map(terms_of, timed)), [case.seconds for case in timed]))))
     whole = found.pop("message", 0.0)
     found["message_overhead"] = min(found.get("message_overhead", 0.0), whole / 2)

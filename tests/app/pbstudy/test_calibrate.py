@@ -15,7 +15,7 @@ from reports.harness import Gather, Load, traffic_of  # noqa: E402
 
 # Of one rank; of root for others that are not there; of two ranks.
 ALONE = {"frame", "bodies"}
-ROOTS = {"unpack", "balance", "move", "table", "hash"}
+ROOTS = {"unpack", "balance", "table", "hash"}
 BETWEEN = {"message", "send", "receive"}
 BOX = """title = "t"
 [[actor]]

@@ -39,7 +39,7 @@ class FitCosts(unittest.TestCase):
                       for steps in (1, 8)]
             cases.append(case("unpack", worlds * (2e-8 + 4e-9 * bodies), ranks=64, worlds=worlds, bodies=bodies))
         cases += [case("message", 3e-6 + 2e-10 * size, ranks=2, bytes=size) for size in (8, 1024, 1048576)]
-        cases += [case("send", 4e-7, ranks=2, bytes=8), case("receive", 6e-7, ranks=2, bytes=8), case("move", 1.0)]
+        cases += [case("send", 4e-7, ranks=2, bytes=8), case("receive", 6e-7, ranks=2, bytes=8)]
         costs = harness.fit_costs(cases)
         for name, expected in (("frame", 2e-6), ("world_frame", 1e-7), ("world_step", 3e-9), ("body_frame", 5e-9),
                                ("root_unpack_world", 2e-8), ("root_unpack_body", 4e-9), ("message_byte", 2e-10), ("message_overhead", 4e-7),

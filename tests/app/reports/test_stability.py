@@ -15,7 +15,8 @@ NUMBERS = {"limit_right": 0.01, "limit_broken": 0.1, "broken_at": math.inf, "row
 def row_of(scene, setting, verdict, value, **others):
     nothing = {name: 0.0 for name in stability.METRICS}
     return {"scene": scene, "group": "rest", "row": 7, "oracle": "it stands", "source": "a book", "setting": setting, "stepper": "sor",
-            "bodies": 1, "seconds": 2.0, "cut": 0, "options": "--stepper sor --dt 0.01", "dt": 0.01, "verdict": verdict, "decided_by": "drift", "value": value, "value_unit": "m",
+            "cut": 0, "options": "--stepper sor --dt 0.01", "bodies": 1, "seconds": 2.0, "dt": 0.01,
+            "verdict": verdict, "decided_by": "drift", "value": value, "value_unit": "m",
             "simulated": 2.0, "drift_band": 0, **NUMBERS, **nothing, **others}
 
 

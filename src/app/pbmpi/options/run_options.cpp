@@ -28,17 +28,14 @@ std::string effect_list() {
 constexpr int most_frames = 1'000'000'000, most_steps = 1'000'000;
 
 std::vector<RunOption> scene_rows() {
-  constexpr OptionGroup group = OptionGroup::scene;
   return {
       {.name = "scene",
        .member = &RunSpec::scene,
-       .group = group,
        .placeholder = "NAME|FILE",
        .meaning = "a scene that pbmpi brings (--list-scenes), or a file of your own: a scene (.toml), or a "
                   "model in MJCF (.xml) or URDF (.urdf)"},
       {.name = "replicas",
        .member = &RunSpec::replicas,
-       .group = group,
        .placeholder = "N",
        .meaning = "worlds; default: the scene's",
        .saved = Saved::physics,
@@ -46,14 +43,12 @@ std::vector<RunOption> scene_rows() {
        .of_scene = &Defaults::replicas},
       {.name = "parameters",
        .member = &RunSpec::parameters,
-       .group = group,
        .placeholder = "FILE",
        .meaning = "what each world has otherwise than the scene: a table with a row for each world and a "
                   "column for each parameter, car.speed or world.gravity (scenes/FORMAT.md); CSV, or TOML "
                   "with [[world]] tables"},
       {.name = "world-range",
        .member = &RunSpec::range,
-       .group = group,
        .placeholder = "A:B",
        .meaning = "run the worlds A to B-1 of the ensemble only, with the bits that they have in the whole; "
                   "default of --output: <scene>.worlds<A>-<B>.h5",
@@ -61,7 +56,6 @@ std::vector<RunOption> scene_rows() {
        .recorded = true},
       {.name = "frames",
        .member = &RunSpec::frames,
-       .group = group,
        .placeholder = "N",
        .meaning = "measured frames; default: the scene's",
        .saved = Saved::value,
@@ -70,7 +64,6 @@ std::vector<RunOption> scene_rows() {
        .most = most_frames},
       {.name = "warmup",
        .member = &RunSpec::warmup,
-       .group = group,
        .placeholder = "N",
        .meaning = "frames before the measured ones; default: the scene's, 3",
        .saved = Saved::value,
@@ -80,7 +73,6 @@ std::vector<RunOption> scene_rows() {
        .most = most_frames},
       {.name = "seed",
        .member = &RunSpec::seed,
-       .group = group,
        .placeholder = "N",
        .meaning = "of the solver's row order and of the scene's variation",
        .shows_default = true,
@@ -88,7 +80,6 @@ std::vector<RunOption> scene_rows() {
        .recorded = true},
       {.name = "effects",
        .member = &RunSpec::effects,
-       .group = group,
        .placeholder = "+NAME,-NAME",
        .meaning =
            "for an experiment: + demands an effect that the scene does not call for, - leaves one out; "
@@ -100,11 +91,9 @@ std::vector<RunOption> scene_rows() {
 }
 
 std::vector<RunOption> step_rows() {
-  constexpr OptionGroup group = OptionGroup::step;
   return {
       {.name = "steps-per-frame",
        .member = &RunSpec::steps_per_frame,
-       .group = group,
        .placeholder = "N",
        .meaning = "steps in a frame; default: the scene's, 3",
        .saved = Saved::physics,
@@ -113,7 +102,6 @@ std::vector<RunOption> step_rows() {
        .most = most_steps},
       {.name = "on-blowup",
        .member = &RunSpec::on_blowup,
-       .group = group,
        .placeholder = "report|stop|freeze|refine",
        .meaning =
            "what to do about a world that blows up: a number that is not finite, energy gained without "
@@ -128,11 +116,9 @@ std::vector<RunOption> step_rows() {
 }
 
 std::vector<RunOption> cut_rows() {
-  constexpr OptionGroup group = OptionGroup::cut;
   return {
       {.name = "decompose",
        .member = &RunSpec::decomposition,
-       .group = group,
        .placeholder = "auto|worlds|spaces",
        .meaning =
            "worlds: each rank owns whole worlds; spaces: a world is cut at its collision spaces, of "
@@ -145,7 +131,6 @@ std::vector<RunOption> cut_rows() {
        .recorded = true},
       {.name = "ranks-per-world",
        .member = &RunSpec::ranks_per_world,
-       .group = group,
        .placeholder = "N",
        .meaning = "spaces: groups of at most N ranks, as equal as can be, of which each cuts worlds of its "
                   "own; default: as few as make the busiest group's worlds cost least, counted in rows of "
@@ -155,23 +140,19 @@ std::vector<RunOption> cut_rows() {
 }
 
 std::vector<RunOption> output_rows() {
-  constexpr OptionGroup group = OptionGroup::output;
   return {
       {.name = "output",
        .member = &RunSpec::output,
-       .group = group,
        .letter = 'o',
        .placeholder = "FILE",
        .meaning = "HDF5 file of the run; default: <scene>.h5"},
-      {.name = "no-output", .member = &RunSpec::no_output, .group = group, .meaning = "write no file"},
+      {.name = "no-output", .member = &RunSpec::no_output, .meaning = "write no file"},
       {.name = "no-xdmf",
        .member = &RunSpec::no_xdmf,
-       .group = group,
        .meaning = "write no sidecar for ParaView; without this it stands beside the file, <output without "
                   ".h5>.xdmf"},
       {.name = "record-every",
        .member = &RunSpec::record_every,
-       .group = group,
        .placeholder = "N",
        .meaning = "store the bodies of every Nth frame; timings are stored for all",
        .shows_default = true,
@@ -179,7 +160,6 @@ std::vector<RunOption> output_rows() {
        .recorded = true},
       {.name = "record",
        .member = &RunSpec::records,
-       .group = group,
        .placeholder = "LIST",
        .meaning =
            "what else to store of the last step of each frame, e.g. contacts,residuals. islands (quick, "
@@ -189,14 +169,12 @@ std::vector<RunOption> output_rows() {
            "constraints"},
       {.name = "report",
        .member = &RunSpec::report,
-       .group = group,
        .placeholder = "text|full|json",
        .meaning =
            "the summary; full: with times of phases and ranks; json: exactly one JSON document on stdout",
        .shows_default = true},
       {.name = "budget",
        .member = &RunSpec::budget_s,
-       .group = group,
        .placeholder = "TIME",
        .meaning = "time that a frame may take, e.g. 3.33ms (us, ms, s); default: a tenth of 1/30 s",
        .saved = Saved::value,
@@ -206,29 +184,24 @@ std::vector<RunOption> output_rows() {
 }
 
 std::vector<RunOption> stop_rows() {
-  constexpr OptionGroup group = OptionGroup::stop;
   return {
       {.name = "max-time",
        .member = &RunSpec::max_time_s,
-       .group = group,
        .placeholder = "TIME",
        .meaning = "stop with a checkpoint at the end of the frame in which so much time has passed since the "
                   "start, e.g. 90s, 30min, 2h"},
       {.name = "checkpoint",
        .member = &RunSpec::checkpoint_file,
-       .group = group,
        .placeholder = "FILE",
        .meaning =
            "where the run is saved: on USR1, when it stops early, and after the last frame too if this "
            "option is given; default: <output without .h5>.checkpoint.h5, or the file of --resume"},
       {.name = "checkpoint-every",
        .member = &RunSpec::checkpoint_every_s,
-       .group = group,
        .placeholder = "TIME",
        .meaning = "save the run this often, too, e.g. 10min"},
       {.name = "resume",
        .member = &RunSpec::resume,
-       .group = group,
        .placeholder = "FILE",
        .meaning =
            "go on from a checkpoint, with any number of ranks and the same bits. Scene and physics are "
@@ -335,8 +308,17 @@ void with_value(const RunOption& option, const RunSpec& spec, Visit visit) {
 const std::vector<RunOption>& run_options() {
   static const std::vector<RunOption> all = [] {
     std::vector<RunOption> rows;
-    for (const auto& group : {scene_rows(), step_rows(), cut_rows(), output_rows(), stop_rows()})
-      rows.insert(rows.end(), group.begin(), group.end());
+    const auto add = [&](OptionGroup group, std::vector<RunOption> its_rows) {
+      for (RunOption& option : its_rows) {
+        option.group = group;
+        rows.push_back(std::move(option));
+      }
+    };
+    add(OptionGroup::scene, scene_rows());
+    add(OptionGroup::step, step_rows());
+    add(OptionGroup::cut, cut_rows());
+    add(OptionGroup::output, output_rows());
+    add(OptionGroup::stop, stop_rows());
     return rows;
   }();
   return all;

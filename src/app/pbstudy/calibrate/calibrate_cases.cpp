@@ -73,7 +73,7 @@ std::vector<TimedCase> make_calibrate_cases(int num_ranks, int largest_ranks) {
       const std::int64_t worlds = ranks * each;
       for (const std::int64_t bodies : {1, 37})
         cases.push_back({TimedPart::unpack, ranks, worlds, bodies, 0, 0, 0});
-      for (const TimedPart part : {TimedPart::balance, TimedPart::move, TimedPart::table, TimedPart::hash})
+      for (const TimedPart part : {TimedPart::balance, TimedPart::table, TimedPart::hash})
         cases.push_back({part, ranks, worlds, 0, 0, 0, 0});
     }
   }

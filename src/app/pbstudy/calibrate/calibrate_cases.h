@@ -39,10 +39,9 @@ enum class TimedPart {
   message,  ///< half a message there and back
   send,     ///< a message of a burst, at its sender
   receive,  ///< a message of a burst, at its receiver
-  move,     ///< root: decides which worlds move; costs are uneven. Not used in any fit
 };
-inline constexpr std::array<std::string_view, 10> timed_part_names = {
-    "frame", "unpack", "balance", "table", "hash", "bodies", "message", "send", "receive", "move"};
+inline constexpr std::array<std::string_view, 9> timed_part_names = {
+    "frame", "unpack", "balance", "table", "hash", "bodies", "message", "send", "receive"};
 
 /// Members that do not concern its part are 0.
 struct TimedCase {

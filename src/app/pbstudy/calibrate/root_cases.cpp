@@ -44,14 +44,11 @@ double time_unpack(const TimedCase& one) {
   return seconds_of([&] { poses.unpack(table, placement, received, next); });
 }
 
-/// All costs equal, or half of the ranks with twice the cost.
-double time_decision(const TimedCase& one, bool is_even) {
+/// All costs are equal.
+double time_decision(const TimedCase& one) {
   const auto ranks = static_cast<int>(one.ranks);
   const mpi::Placement placement = mpi::equal_placement(static_cast<int>(one.worlds), ranks);
-  std::vector<double> cost_s(placement.size(), 1e-3);
-  for (std::size_t world = 0; world < placement.size() && !is_even; ++world) {
-    if (placement[world] % 2 == 0) cost_s[world] = 2e-3 + 1e-9 * static_cast<double>(world);
-  }
+  const std::vector<double> cost_s(placement.size(), 1e-3);
   mpi::Rebalancer rebalancer(ranks, mpi::WorldRunSettings().rebalance_threshold);
   rebalancer.frame_done(cost_s, placement);
   return seconds_of([&] { rebalancer.frame_done(cost_s, placement); });
@@ -91,8 +88,7 @@ double time_root(const TimedCase& one) {
     case TimedPart::unpack:
       return time_unpack(one);
     case TimedPart::balance:
-    case TimedPart::move:
-      return time_decision(one, one.part == TimedPart::balance);
+      return time_decision(one);
     case TimedPart::table:
       return time_table(one);
     case TimedPart::hash:

@@ -1,8 +1,6 @@
 #include <string>
 #include <vector>
 
-#include <fmt/core.h>
-
 #include "analysis/error_bands.h"
 #include "app/pbstudy/stability/stability_runner.h"
 #include "app/pbstudy/study/engine_differences.h"
@@ -93,23 +91,6 @@ std::vector<io::TableColumn> stability_columns(const StabilityRows& rows) {
   return columns;
 }
 
-/// "9 of 70 broken" for each setting, for the end of the run.
-std::string stability_note(const StabilityRows& rows) {
-  const std::vector<Judgement> judgements = judge_all(rows);
-  std::string text =
-      fmt::format("{:52} {:>5} {:>9} {:>7} {:>5}\n", "setting", "pass", "degraded", "broken", "n/a");
-  for (std::size_t k = 0; k < rows.settings.size(); ++k) {
-    std::array<int, 4> count{};
-    for (std::size_t i = 0; i < rows.cases.size(); ++i) {
-      if (rows.cases[i].setting == static_cast<int>(k))
-        ++count[static_cast<std::size_t>(judgements[i].verdict)];
-    }
-    text += fmt::format("{:52} {:5} {:9} {:7} {:5}\n", setting_text(rows.settings[k]), count[0], count[1],
-                        count[2], count[3]);
-  }
-  return text;
-}
-
 std::vector<StabilityResult> run_cases(const StabilityOptions& options,
                                        const std::vector<StabilityCase>& cases, StudyRunner& runner) {
   const auto run_one = [&](std::size_t i) {
@@ -139,7 +120,6 @@ core::ExitCode run_stability(const mpi::Communicator& comm, const std::vector<st
     StudyContent content;
     content.cases = stability_columns(rows);
     content.tables["differences"] = engine_differences(models, steppers_of(cases));
-    content.note = stability_note(rows);
     content.next = " --html stability.html";
     return content;
   });

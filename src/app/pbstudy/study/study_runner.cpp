@@ -199,7 +199,7 @@ io::TableFile StudyRunner::file_with(StudyContent content) const {
 void StudyRunner::print_end(const StudyContent& content) const {
   std::cout << num_cases_ << " cases of " << scenes_.size() << (scenes_.size() == 1 ? " scene" : " scenes")
             << " in " << options_.output << "\n"
-            << content.note << "next: pbreport " << options_.output << content.next << "\n"
+            << "next: pbreport " << options_.output << content.next << "\n"
             << std::flush;
 }
 

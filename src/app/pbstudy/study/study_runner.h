@@ -38,12 +38,11 @@ class StopRequest {
   bool is_set() const;
 };
 
-/// What a study adds to the common content of all studies' files, and to the text printed at the end.
+/// What a study adds to the common content of all studies' files,
 struct StudyContent {
   std::vector<io::Parameter> parameters;
   std::vector<io::TableColumn> cases;                          ///< one row per case
   std::map<std::string, std::vector<io::TableColumn>> tables;  ///< other tables, by name
-  std::string note;                                            ///< lines printed at the end of the run
   std::string next;                                            ///< options of pbreport for the next look
 };
 
