@@ -16,13 +16,12 @@ import tempfile
 
 sys.path.insert(1, str(pathlib.Path(__file__).resolve().parents[2] / "src/app"))  # the package reports
 
-from reports import tables  # noqa: E402
 from reports.command_line import quantity  # noqa: E402
 from reports.files import STUDY, BadInput, WriteError, require  # noqa: E402
 from reports.words import plural  # noqa: E402
 
 import runs  # noqa: E402
-from study import cases, child  # noqa: E402
+from study import cases, child, table_file  # noqa: E402
 from study import runs as case_runs  # noqa: E402
 from study import tables as case_tables  # noqa: E402
 from suite import SCENES  # noqa: E402
@@ -66,7 +65,7 @@ def require_possible(options):
                                                      "build again")
     require((TOOL / "default.supp").exists(), f"Valgrind is not installed, and pbvalue needs it ({TOOL}/default.supp leads nowhere); install Debian's "
                                               "valgrind")
-    tables.require_replaceable(options.output, STUDY)
+    table_file.require_replaceable(options.output, STUDY)
 
 
 def recorded_run(given, options, folder):
@@ -171,7 +170,7 @@ def measure(options):
     run_cases(requests, kept, options)
     columns = case_tables.columns([kept.outcomes[index] for index in range(len(requests))])
     attributes |= {"study": "prediction", "created": created, "command_line": shlex.join(["predict.py", *sys.argv[1:]])}
-    tables.write_tables(options.output, STUDY, VERSION, attributes, parameters, columns, is_sealed=True)
+    table_file.write_tables(options.output, STUDY, VERSION, attributes, parameters, columns)
     kept.path.unlink()
     if not options.quiet:
         note = "" if has_single else f"no runs of quick in single precision: this build has no {cases.ODE_SINGLE} (jobs/ode_single.sh)\n"

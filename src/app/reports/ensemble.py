@@ -1,6 +1,5 @@
 """pbreport ensemble: mean, spread and quantiles over runs of one scene that differ in their seeds, or over their worlds."""
 import dataclasses
-import re
 
 import numpy as np
 
@@ -14,8 +13,7 @@ from reports.samples import quantile, total
 from reports.study import ensemble_charts
 from reports.tables import Values
 
-FILETYPE, VERSION = "pbmpi-ensemble", (1, 6)
-TABLES = ("runs", "frames", "positions", "bodies", "worlds", "body_frames")
+TABLES = ("runs", "frames", "positions", "bodies", "worlds")
 RUNS, WORLDS = "runs", "worlds"  # what a sample is: a run with its worlds joined, or each world of each run
 # Worlds are joined by their sum, or by the largest.
 VECTORS = ("linear_momentum", "angular_momentum")
@@ -31,9 +29,7 @@ def add_options(group):
                        help="from 0 to 1; default: 0.05 0.25 0.5 0.75 0.95")
     group.add_argument("--allow", nargs="+", action=Listed, default=[], metavar="NAME",
                        help="parameters that may differ beside seed and solver_seed, e.g. iterations")
-    group.add_argument("-o", "--output", metavar="OUT", help="all tables as an HDF5 file")
     add_table_option(group, TABLES, "frames")
-    group.add_argument("--by-body", action="store_true", help="also the table body_frames: each body in each recorded frame")
 
 
 COMMAND = Command("ensemble", "Compares runs of one scene that differ in --seed or --solver-seed: mean, spread and quantiles of "
@@ -260,10 +256,6 @@ class Bodies:
             self.rms = np.sqrt(self.squares / self.count)
         self.distance = spread_of(distance, quantiles)
 
-    def columns(self, prefix=""):
-        return [*(Values(f"{prefix}mean_{axis}", "m", self.mean[:, place]) for place, axis in enumerate(AXES)),
-                Values(f"{prefix}distance_rms", "m", self.rms)]
-
 
 def bodies_in(ensemble, row):
     """Bodies of a recorded frame."""
@@ -290,14 +282,6 @@ def positions_table(ensemble, frames):
             Values("widest_name", "", [ensemble.first.body_name[body] if body >= 0 else "" for body in widest])]
 
 
-def body_frames_table(ensemble, frames):
-    """A row for each recorded frame and body."""
-    columns = [[*one.columns(), *spread_columns(one.distance, "m", "distance_")] for one in frames or [bodies_of_none(ensemble)]]
-    bodies, rows = np.arange(ensemble.num_bodies), ensemble.num_bodies * len(frames)
-    return [*frame_columns(ensemble.first, np.repeat(ensemble.recorded(), len(bodies))), Values("body", "", np.tile(bodies, len(frames))),
-            *(Values(same[0].name, same[0].unit, np.concatenate([column.values for column in same])[:rows]) for same in zip(*columns))]
-
-
 def bodies_table(ensemble, frames):
     """Over the measured frames, and in the last recorded one."""
     first = ensemble.first
@@ -313,7 +297,9 @@ def bodies_table(ensemble, frames):
     return [Values("body", "", bodies), Values("world", "", first.body_world.astype(int) if over_runs else np.full(len(bodies), -1)),
             *(Values(name, "", values[:len(bodies)]) for name, values in texts.items()), Values("distance_rms", "m", rms),
             Values("distance_max", "m", np.fmax.reduce(largest, axis=0, initial=0.0)),
-            Values("nonfinite", "", nonfinite.sum(axis=0).astype(int)), *last.columns("last_")]
+            Values("nonfinite", "", nonfinite.sum(axis=0).astype(int)),
+            *(Values(f"last_mean_{axis}", "m", last.mean[:, place]) for place, axis in enumerate(AXES)),
+            Values("last_distance_rms", "m", last.rms)]
 
 
 def step_times(run, frames):
@@ -382,11 +368,10 @@ def runs_table(ensemble):
         ("frame_rate", "Hz", lambda row: len(row[1]) / total(row[1]) if len(row[1]) and min(row[1]) > 0 else 0.0))
 
 
-def tables_of(ensemble, quantities, by_body):
+def tables_of(ensemble, quantities):
     frames = [bodies_in(ensemble, row) for row in range(len(ensemble.recorded()))]
-    found = {"runs": runs_table(ensemble), "frames": frames_table(ensemble, quantities), "positions": positions_table(ensemble, frames),
-             "bodies": bodies_table(ensemble, frames), "worlds": worlds_table(ensemble)}
-    return found | ({"body_frames": body_frames_table(ensemble, frames)} if by_body else {})
+    return {"runs": runs_table(ensemble), "frames": frames_table(ensemble, quantities), "positions": positions_table(ensemble, frames),
+            "bodies": bodies_table(ensemble, frames), "worlds": worlds_table(ensemble)}
 
 
 def head(ensemble):
@@ -426,10 +411,10 @@ def positions_text(positions):
             f"{last['body_rms_max']:.4g} m at most: {last['widest_name']}")
 
 
-def report_of(ensemble, by_body):
+def report_of(ensemble):
     """(the report, its tables of numbers)"""
     quantities = spread_by_frame(ensemble)
-    numbers = tables_of(ensemble, quantities, by_body)
+    numbers = tables_of(ensemble, quantities)
     table = last_frame_shown(quantities)
     sections = [Section(tables=[runs_shown(ensemble)], shown_in=(TEXT,)),
                 Section(text="The last frame that all runs have:", tables=[table], shown_in=(TEXT,)),
@@ -456,12 +441,6 @@ def parameters_of(ensemble):
     return {"scene": ensemble.first.scene, "over": ensemble.over, "differences": "".join(f"{one}\n" for one in ensemble.differences)}
 
 
-def program_attributes():
-    """Of the pbreport that called: "pbreport 0.1.0 (1234567; ...)"."""
-    found = re.match(r"\S+ (\S+) \(([^;)]*)", page.version_line())
-    return {"pbmpi_version": found[1], "git_revision": found[2]} if found else {}
-
-
 def require_sense(options):
     require(options.over in (RUNS, WORLDS), f"--over {options.over}: it must be runs or worlds")
     require(len(options.files) >= (2 if options.over == RUNS else 1),
@@ -469,7 +448,6 @@ def require_sense(options):
     for q in options.quantiles:
         require(0 <= q <= 1, f"--quantiles: {q:f} is not from 0 to 1")
     require_table(options, TABLES)
-    require(options.table != "body_frames" or options.by_body, "--table body_frames: it takes --by-body")
 
 
 def run(words):
@@ -477,10 +455,5 @@ def run(words):
     if options is None:
         return
     require_sense(options)
-    if options.output:
-        tables.require_replaceable(options.output, FILETYPE)  # before the work
-    ensemble = ensemble_of(options)
-    report, numbers = report_of(ensemble, options.by_body)
-    if options.output:
-        tables.write_tables(options.output, FILETYPE, VERSION, program_attributes(), parameters_of(ensemble), numbers)
+    report, numbers = report_of(ensemble_of(options))
     deliver(report, options, tables.csv_of(numbers[options.table]))

@@ -1,5 +1,4 @@
 """pbreport ensemble: spreads of samples, which runs are samples of the same, and the HDF5 file of an ensemble."""
-import os
 import pathlib
 import sys
 import types
@@ -10,9 +9,8 @@ import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "src/app"))
 import made_up  # noqa: E402
-from reports import document, ensemble, tables  # noqa: E402
+from reports import document, ensemble  # noqa: E402
 from reports.files import BadInput  # noqa: E402
-from reports.tables import Values  # noqa: E402
 
 FRAMES, WORLDS, BODIES = 5, 2, 4  # of a made-up run, with one row that was not committed
 QUANTITIES = 10 + 2 * 3 + 1  # observables, those with components, and the time of a frame
@@ -102,10 +100,9 @@ class Runs(Files):
 class Tables(Files):
     def test_have_rows_by_frame_quantity_body_and_world(self):
         found = self.ensemble(*(self.write(f"{seed}.h5", seed) for seed in (1, 2, 3)))
-        report, numbers = ensemble.report_of(found, True)
+        report, numbers = ensemble.report_of(found)
         rows = {name: len(columns[0].values) for name, columns in numbers.items()}
-        self.assertEqual(rows, {"runs": 3, "frames": FRAMES * QUANTITIES, "positions": FRAMES, "bodies": BODIES, "worlds": 6,
-                                "body_frames": FRAMES * BODIES})
+        self.assertEqual(rows, {"runs": 3, "frames": FRAMES * QUANTITIES, "positions": FRAMES, "bodies": BODIES, "worlds": 6})
         frames = report.numbers["frames"]
         energy = frames["quantity"].index("energy")
         self.assertEqual((frames["mean"][energy], frames["unit"][energy]), (4.0, "J"), "two worlds of 1, 2 or 3 J")
@@ -121,7 +118,7 @@ class Tables(Files):
         energy = np.full((FRAMES + 1, WORLDS), 2.0)
         energy[FRAMES - 1, 1] = np.inf
         found = self.ensemble(self.write("1.h5", 1), self.write("2.h5", 2, observables__world__energy=energy))
-        report, _ = ensemble.report_of(found, False)
+        report, _ = ensemble.report_of(found)
         frames = report.numbers["frames"]
         self.assertEqual([count for count, name in zip(frames["nonfinite"], frames["quantity"]) if name == "energy"], [0, 0, 0, 0, 1])
         self.assertIn("| energy | J | 2 | nan | 2 | 2 | 2 | 1 |", document.markdown(report))
@@ -132,11 +129,10 @@ class Tables(Files):
         for path in files:
             with h5py.File(path, "r+") as file:
                 file.attrs["record_every"] = 10
-        report, numbers = ensemble.report_of(self.ensemble(*files), True)
-        self.assertEqual((report.numbers["positions"]["frame"], report.numbers["body_frames"]["distance_mean"]), ([], []))
+        report, _ = ensemble.report_of(self.ensemble(*files))
+        self.assertEqual(report.numbers["positions"]["frame"], [])
         self.assertTrue(np.isnan(report.numbers["bodies"]["last_mean_x"]).all())
         self.assertNotIn("positions:", document.text(report))
-        tables.write_tables(self.path("e.h5"), "pbmpi-ensemble", (1, 6), {}, {}, numbers)
 
     def test_take_over_the_results_and_parameters_of_worlds_that_all_runs_have(self):
         cost, speed = {"world_results__cost": [0.5, 1.5]}, {"world_parameters__car.speed": [8.0, np.nan]}
@@ -144,56 +140,6 @@ class Tables(Files):
         columns = {column.name: column.values for column in ensemble.worlds_table(self.ensemble(*files))}
         self.assertEqual([name for name in columns if "." in name or name in ("cost", "kind")], ["car.speed"])
         np.testing.assert_array_equal(columns["car.speed"], [8, np.nan, 8, np.nan])
-
-
-class Hdf5(Files):
-    COLUMNS = {"frames": [Values("mean", "m", np.array([0.5, 1.5])), Values("count", "", np.array([2, 3], dtype="i4")),
-                          Values("name", "", ["é", "wall"])], "none": [Values("name", "", [])]}
-
-    def write_tables(self, name):
-        tables.write_tables(self.path(name), "pbmpi-ensemble", (1, 6), {"pbmpi_version": "0.1.0"}, {"scene": ""}, self.COLUMNS)
-
-    def test_has_int64_float64_and_fixed_texts_in_utf_8_with_units_in_ascii(self):
-        self.write_tables("e.h5")
-        with h5py.File(self.path("e.h5")) as file:
-            self.assertEqual((file.attrs["filetype"], file.attrs["version"].tolist()), (b"pbmpi-ensemble", [1, 6]))
-            self.assertEqual([file[f"frames/{name}"].dtype.str for name in ("mean", "count", "name")], ["<f8", "<i8", "|S4"])
-            self.assertEqual(file["frames/mean"].attrs["unit"], b"m")
-            self.assertEqual(file["frames/name"].asstr()[:].tolist(), ["é", "wall"])
-            self.assertEqual((file["parameters/scene"][()], file["none/name"].shape, file["none/name"].dtype.str), (b"", (0,), "|S1"))
-            unit = file["frames/mean"].attrs.get_id("unit")
-            for item, expected in ((file["frames/name"].id, h5py.h5t.CSET_UTF8), (file["parameters/scene"].id, h5py.h5t.CSET_UTF8),
-                                   (file.attrs.get_id("filetype"), h5py.h5t.CSET_UTF8), (unit, h5py.h5t.CSET_ASCII)):
-                found = item.get_type()
-                self.assertEqual((found.get_cset(), found.get_strpad(), found.is_variable_str()), (expected, h5py.h5t.STR_NULLPAD, False))
-
-    def test_replaces_one_of_its_own_and_keeps_its_permissions(self):
-        self.write_tables("e.h5")
-        os.chmod(self.path("e.h5"), 0o640)
-        os.symlink("e.h5", self.path("link.h5"))
-        self.write_tables("link.h5")
-        self.assertTrue(os.path.islink(self.path("link.h5")))
-        self.assertEqual(os.stat(self.path("e.h5")).st_mode & 0o777, 0o640)
-        self.assertEqual(sorted(os.listdir(os.path.dirname(self.path("e.h5")))), ["e.h5", "link.h5"])
-
-    def test_replaces_nothing_else(self):
-        for name, block, kind in (("plain", 0, None), ("other", 0, "solver-mesh"), ("block", 1024, None), ("run", 0, "pbmpi-run")):
-            with h5py.File(self.path(name), "w", userblock_size=block) as file:
-                file["measured"] = range(1000)
-                if kind:
-                    file.attrs["filetype"] = kind
-        with open(self.path("text"), "w", encoding="utf-8") as file:
-            file.write("notes of my own")
-        with open(self.path("damaged"), "wb") as file:
-            file.write(b"\x89HDF\r\n\x1a\n and no more")
-        os.mkdir(self.path("folder"))
-        reasons = {"plain": "no readable attribute filetype", "other": "of type solver-mesh, which", "block": "HDF5 file",
-                   "run": "of type pbmpi-run", "text": "no HDF5 file", "damaged": "HDF5 file", "folder": "it is a directory",
-                   "nowhere/e.h5": "there is no directory"}
-        for name, words in reasons.items():
-            before = pathlib.Path(self.path(name)).read_bytes() if os.path.isfile(self.path(name)) else None
-            self.refused(words, self.write_tables, name)
-            self.assertEqual(pathlib.Path(self.path(name)).read_bytes() if before is not None else None, before)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ import numpy as np
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(SOURCE / "src/app"))
 
-from reports import tables  # noqa: E402
 from reports.files import BadInput  # noqa: E402
 from reports.one_run import csv_report, diff, error_sets, processes, recorded  # noqa: E402
 from reports.one_run.rigid import Poses  # noqa: E402
@@ -114,13 +113,6 @@ class Categories(unittest.TestCase):
 
     def test_stretch_falls_into_bands(self):
         self.assertEqual(diff.stretch_bands(np.array([0, 0.029, 0.03, 0.19, 0.2, 3, math.nan])), [2, 2, 2, 1])
-
-
-class Seals(unittest.TestCase):
-    def test_any_byte_matters(self):
-        seal = tables.seal_of(b"12345678")
-        self.assertEqual((len(seal), seal[:8]), (24, b"PBMPISUM"))
-        self.assertEqual(len({tables.seal_of(data) for data in (b"12345678", b"12345679", b"1234567", b"12345678\0")}), 4)
 
 
 if __name__ == "__main__":

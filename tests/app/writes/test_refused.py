@@ -145,8 +145,7 @@ class RefusedWrites(ProgramTest):
         self.assertEqual(self.run_command([*RUN, *HALF, "--output", "begin.h5", "--checkpoint", "ck.h5"]).returncode, 0)
         self.assertEqual(self.pbmpi(1, "--resume", "ck.h5", *ALL_FRAMES, "--output", "end.h5", "--quiet").returncode, 0)
         for words in (["--quiet", one, "--html", "out/page"], ["--quiet", one, "--xdmf", "out/page"], ["csv", one, "--output", "out/page"],
-                      ["diff", one, other, "--html", "out/page"], ["diff", one, other, "--output", "out/page"],
-                      ["ensemble", one, other, "--output", "out/page"], ["join", "begin.h5", "end.h5", "--output", "out/page"]):
+                      ["diff", one, other, "--html", "out/page"], ["join", "begin.h5", "end.h5", "--output", "out/page"]):
             command = [PBREPORT, *words]
             for first in self.some_of(self.num_writes(command, 0)):
                 with self.subTest(words=words, first=first):

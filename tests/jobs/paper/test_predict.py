@@ -10,7 +10,7 @@ import made_up  # noqa: F401  which adds the folder of what is tested
 from predict import Kept
 from reports.errors import KINDS
 from reports.files import BadInput
-from study import child, tables
+from study import child, table_file, tables
 from study.cases import ODE_SINGLE, VARIANTS, cases_of, threshold_name
 from study.runs import joined_errors
 
@@ -90,7 +90,7 @@ class Errors(unittest.TestCase):
 
 class Tables(unittest.TestCase):
     def test_without_rows_have_the_types_of_their_columns(self):
-        columns = {column.name: column.stored() for column in tables.columns([])["cases"]}
+        columns = {column.name: table_file.stored(column.values) for column in tables.columns([])["cases"]}
         self.assertEqual([(columns[name].dtype.kind, columns[name].shape) for name in ("exit_code", "threshold", "drift_body_position_bands")],
                          [("i", (0,)), ("f", (0,)), ("i", (0, 5))])
         self.assertEqual(columns["scene"].dtype.kind, "S")

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 # First number of the layouts that are understood (io/SCHEMA.md), by filetype.
-LAYOUTS = {"pbmpi-run": 1, "pbmpi-study": 1, "pbmpi-diff": 1, "pbmpi-ensemble": 1}
+LAYOUTS = {"pbmpi-run": 1, "pbmpi-study": 1}
 
 
 def needed(module: str, package: str) -> ModuleType:

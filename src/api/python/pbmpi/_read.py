@@ -10,16 +10,14 @@ from ._run import Run
 from ._tables import whole_table
 
 Path = Union[str, os.PathLike]
-# The table of each other kind of file that is read where none is named.
-FIRST_TABLE = {"pbmpi-study": "cases", "pbmpi-diff": "frames", "pbmpi-ensemble": "frames"}
 
 
 def read(path: Union[Path, Sequence[Path]], table: Optional[str] = None) -> Any:
-    """A file of pbmpi as a Run, or a table of pbstudy, `pbreport diff` or `pbreport ensemble` as a pandas.DataFrame.
+    """A file of pbmpi as a Run, or a table of pbstudy as a pandas.DataFrame.
 
     path: the file; of a run that was saved and resumed all its files, in any order.
-    table: of another file than a run's, which of its tables, e.g. "differences" of `pbstudy stability`; None: "cases" of a study, else
-    "frames". attrs of the table have "units" by column, "filetype", "attributes", "parameters" and "tables", all that there are.
+    table: of another file than a run's, which of its tables, e.g. "differences" of `pbstudy stability`; None: "cases". attrs
+    of the table have "units" by column, "filetype", "attributes", "parameters" and "tables", all that there are.
 
     FileNotFoundError; ValueError for a file of another kind or layout, or files that are not of one run; ImportError without
     h5py or pandas.
@@ -52,7 +50,7 @@ def read(path: Union[Path, Sequence[Path]], table: Optional[str] = None) -> Any:
 
 def _table_of(path: str, file: Any, kind: str, name: Optional[str]) -> Any:
     tables = [group for group in file if group != "parameters"]
-    name = name or FIRST_TABLE[kind]
+    name = name or "cases"
     if name not in tables:
         raise ValueError(f"{path}: it has no table {name!r}; it has {', '.join(tables)}")
     table = whole_table(file[name], "row")

@@ -4,16 +4,13 @@ import math
 
 import numpy as np
 
-from reports import charts, errors, page, tables
+from reports import charts, errors, page
 from reports.command_line import Command, Listed, deliver, parse
 from reports.document import PAGE, Chart, Report, Section, Table
-from reports.ensemble import program_attributes
 from reports.files import require
 from reports.one_run.error_sets import CONSTRAINTS, ORIENTATION_BANDS, POSITION_BANDS, constraints_of, pose_errors
 from reports.one_run.recorded import RecordedRun, require_comparable
-from reports.tables import Values
 
-FILETYPE, VERSION = "pbmpi-diff", (1, 7)
 # Harrison, Rensink and van de Panne (SIGGRAPH 2004): with full attention 3 % can be seen; without it more than 20 % can go unnoticed.
 STRETCH_BANDS, STRETCH_EDGES = ("< 3 %", "3-20 %", "> 20 %", "inf/NaN"), (0.03, 0.20)
 MOST_POINTS, MOST_ACTORS = 2000, 40  # of a chart, of a table on the page
@@ -22,7 +19,6 @@ MOST_POINTS, MOST_ACTORS = 2000, 40  # of a chart, of a table on the page
 def add_options(group):
     group.add_argument("--floor", nargs="+", action=Listed, default=[], metavar="FILE", help="the noise floor: runs like REFERENCE in all but "
                        "--solver-seed")
-    group.add_argument("-o", "--output", metavar="FILE", help="write errors and categories of each frame, and of each actor, into an HDF5 file")
 
 
 COMMAND = Command("diff", "Shows how far two recorded runs of the same bodies are apart: drift, along the trajectory, over the measured frames; "
@@ -114,13 +110,17 @@ def table_json(table):
 
 
 def constraints_json(found):
-    return {f"{kind}_{unit}": error_json(found.all[kind]) for kind, unit in CONSTRAINTS.items() if kind in found.all} | {"passages": found.passages}
+    def of(table):
+        return {f"{kind}_{unit}": error_json(table[kind]) for kind, unit in CONSTRAINTS.items() if kind in table}
+
+    return of(found.all) | {"passages": found.passages, "by_frame": list(map(of, found.by_frame)), "by_actor": list(map(of, found.by_actor))}
 
 
 def json_of(c):
     estimates = {name: table_json(table) for name, table in (("estimate_defect", c.defect), ("estimate_drift", c.estimate_drift)) if table}
     by_actor = [{"world": world, "actor": name, "kind": kind} | table_json(table) for (world, name, kind), table in zip(c.actors, c.by_actor)]
     return {"run": c.run.path, "reference": c.reference.path, "same_state_hash": c.same_hash, "frames": len(c.rows),
+            "steps": c.reference.recorded_step[c.rows].tolist(),
             "position_bands": POSITION_BANDS, "orientation_bands": ORIENTATION_BANDS, "drift": table_json(c.drift),
             "drift_by_frame": [table_json(table) for table in c.by_frame], **estimates, "drift_by_actor": by_actor,
             "noise_floor": [table_json(table) for table in c.floor],
@@ -236,30 +236,8 @@ def actor_section(c):
     header = ["world", "actor", "drift rms [m]", "largest [m]", *(f"run's largest {spoken(kind)} [{unit}]" for kind, unit in CONSTRAINTS.items())]
     text = "Those that are farthest off first."
     if len(order) > MOST_ACTORS:
-        text = f"The {MOST_ACTORS} of {len(order)} actors that are farthest off; --output FILE has all."
+        text = f"The {MOST_ACTORS} of {len(order)} actors that are farthest off; --json has all."
     return Section("By actor", text, tables=[Table("Actors", header, rows)], shown_in=(PAGE,))
-
-
-def error_columns(prefix, unit, found):
-    """Columns of one error, e.g. body_position_rms, of Errors in each row."""
-    numbers = [Values(f"{prefix}_{name}", unit, np.array([getattr(one, name) for one in found], float)) for name in ("rms", "p99", "max")]
-    counts = [Values(f"{prefix}_{name}", "", np.array([getattr(one, name) for one in found], int)) for name in ("count", "broken")]
-    return [*numbers, *counts, Values(f"{prefix}_bands", "", np.array([one.bands for one in found], int).reshape(-1, len(POSITION_BANDS)))]
-
-
-def tables_of(c):
-    """{table: columns} of --output."""
-    def columns(drift, part):
-        found = [column for kind, unit in errors.KINDS.items() for column in error_columns(kind, unit, [table[kind] for table in drift])]
-        for whose, of_run in c.constraints.items():
-            rows = getattr(of_run, part)
-            found += [column for kind, unit in CONSTRAINTS.items() if rows and kind in rows[0]
-                      for column in error_columns(f"{whose}_{kind}", unit, [row[kind] for row in rows])]
-        return found
-
-    world, name, kind = ([actor[place] for actor in c.actors] for place in range(3))
-    return {"frames": [Values("step", "", c.reference.recorded_step[c.rows]), *columns(c.by_frame, "by_frame")],
-            "actors": [Values("world", "", np.array(world, int)), Values("actor", "", name), Values("kind", "", kind), *columns(c.by_actor, "by_actor")]}
 
 
 def report_of(c):
@@ -273,8 +251,6 @@ def run(words):
     if options is None:
         return
     require(len(options.files) == 2, f"diff: {len(options.files)} files are given; it compares two, RUN and REFERENCE (those of --floor come last)")
-    if options.output:
-        tables.require_replaceable(options.output, FILETYPE)  # before the work
     found, reference = map(RecordedRun, options.files)
     require_comparable(found, reference)
     floor = []
@@ -283,8 +259,4 @@ def run(words):
         require_comparable(floor[-1], reference)
         require(floor[-1].attributes.get("state_hash") != reference.attributes.get("state_hash"),
                 f"{path}: it is the reference bit for bit and shows no noise; record it with another --solver-seed")
-    comparison = Comparison(found, reference, floor)
-    if options.output:
-        parameters = {"run": found.path, "reference": reference.path}
-        tables.write_tables(options.output, FILETYPE, VERSION, program_attributes(), parameters, tables_of(comparison), is_sealed=True)
-    deliver(report_of(comparison), options)
+    deliver(report_of(Comparison(found, reference, floor)), options)
