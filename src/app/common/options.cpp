@@ -127,9 +127,8 @@ std::vector<core::NamedPath> named_paths(const po::variables_map& values) {
       if (!name.empty()) paths.push_back({option == "file" ? "the file" : "--" + option, name, written});
     }
   };
-  for (const char* option : {"file", "scene", "config", "parameters", "floor"}) add(option, false);
-  for (const char* option : {"output", "checkpoint", "html", "csv", "xdmf", "write-config"})
-    add(option, true);
+  for (const char* option : {"file", "scene", "config", "parameters"}) add(option, false);
+  for (const char* option : {"output", "checkpoint", "html", "xdmf"}) add(option, true);
   return paths;
 }
 
@@ -147,9 +146,7 @@ std::vector<std::string> given_files(const po::variables_map& values) {
 }
 
 void add_help_options(po::options_description& description) {
-  description.add_options()("help,h", "print this help")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins");
+  description.add_options()("help,h", "print this help")("quiet,q", "print nothing but errors");
 }
 
 void add_seed_option(const std::string& meaning, po::options_description& description) {

@@ -44,7 +44,7 @@ boost::program_options::variables_map parse_with_files(
 /// The files given to parse_with_files(); empty if none is named.
 std::vector<std::string> given_files(const boost::program_options::variables_map& values);
 
-/// Adds --help and --config.
+/// Adds --help and --quiet.
 void add_help_options(boost::program_options::options_description& description);
 
 /// Adds --seed, 1 by default; `meaning`: for --help.

@@ -58,7 +58,7 @@ Manual pbreport_manual() {
                 .usage = "pbreport [COMMAND] FILE [options]",
                 .title = "Commands (pbreport COMMAND --help shows their options)",
                 .options = report_options_description(),
-                .basic = {"json", "html", "xdmf", "config", "quiet"},
+                .basic = {"json", "html", "xdmf", "quiet"},
                 .exit_codes = common_exit_codes(),
                 .examples = {"pbreport 100CrSk.h5", "pbreport 100CrSk.h5 --html 100CrSk.html",
                              "pbreport 100CrSk.h5 --json | jq .frame_rate"}};

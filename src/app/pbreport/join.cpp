@@ -22,7 +22,6 @@ po::options_description join_options() {
   all.add_options()("output,o", po::value<std::string>()->value_name("FILE"), "the file to write")  //
       ("common", "leave out what not all files have, e.g. contacts");
   add_help_options(all);
-  all.add_options()("quiet,q", "print nothing but errors");
   return all;
 }
 

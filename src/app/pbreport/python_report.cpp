@@ -8,11 +8,9 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
-#include <sstream>
 
 #include "app/common/options.h"
 #include "core/system/descriptor.h"
-#include "core/system/input_file.h"
 #include "io/hdf5/file_types.h"
 #include "io/run/run_data.h"
 #include "io/table/table_file.h"
@@ -69,25 +67,12 @@ void require_sound(const std::string& path) {
   if (filetype == io::filetype) io::require_sound_run(path);
 }
 
-/// Of all words that may name a file: A, --option=A, and those of a file of options.
+/// Of all words that may name a file: A, --option=A.
 void require_sound_files(const std::vector<std::string>& args) {
-  bool is_config = false;
   for (const std::string& arg : args) {
     const std::size_t equals = arg.starts_with("-") ? arg.find('=') : std::string::npos;
     const std::string value = equals == std::string::npos ? arg : arg.substr(equals + 1);
-    if (value.empty() || value.starts_with("-")) {
-      is_config = value == "--config";
-      continue;
-    }
-    require_sound(value);
-    if (is_config || arg.starts_with("--config=")) {
-      std::istringstream words(core::read_input_file(value, "--config wants a file of 'name = value' lines"));
-      for (std::string word; words >> word;) {
-        const std::string file = word.substr(word.find('=') + 1);
-        if (!file.empty()) require_sound(file);
-      }
-    }
-    is_config = false;
+    if (!value.empty() && !value.starts_with("-")) require_sound(value);
   }
 }
 

@@ -15,7 +15,6 @@ namespace po = boost::program_options;
 po::options_description repair_options() {
   po::options_description all("Options");
   add_help_options(all);
-  all.add_options()("quiet,q", "print nothing but errors");
   return all;
 }
 

@@ -60,8 +60,6 @@ po::options_description report_options_description() {
   general.add_options()                 //
       ("help,h", "print this help")     //
       ("version", "print the version")  //
-      ("config", po::value<std::string>()->value_name("FILE"),
-       "read options from FILE, one 'name = value' a line; the command line wins")  //
       ("quiet,q", "print nothing but errors and what --json asks for");
 
   po::options_description all;

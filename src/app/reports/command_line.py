@@ -69,34 +69,10 @@ def parser_of(command):
     if command.markdown:
         group.add_argument("--markdown", action="store_true", help=command.markdown)
     group.add_argument("-h", "--help", nargs="?", const="all", metavar="all", help="print this help")
-    group.add_argument("--config", metavar="FILE", help="read options from FILE, one 'name = value' a line; the command line wins")
     printed = "--json or --markdown asks" if command.markdown else "--json asks"
     if command.prints_report:
         group.add_argument("-q", "--quiet", action="store_true", help=f"print nothing but errors and what {printed} for")
     return parser
-
-
-def config_words(path, parser, words):
-    """The lines of a --config file as words of a command line, but for options that `words` have: the command line wins."""
-    actions = parser._actions  # pylint: disable=protected-access
-    flags = [name for action in actions if action.nargs == 0 for name in action.option_strings]
-    given = {word.split("=")[0] for word in words}
-    won = {name for action in actions if given.intersection(action.option_strings) for name in action.option_strings}
-    require(os.path.isfile(path), f"{path}: there is no such file; --config wants a file of 'name = value' lines")
-    try:
-        with open(path, encoding="utf-8") as file:
-            lines = [line.split("#")[0].strip() for line in file]
-    except (OSError, UnicodeDecodeError) as error:
-        raise BadInput(f"{path}: it cannot be read ({error}); --config wants a file of 'name = value' lines") from None
-    found = []
-    for line in filter(None, lines):
-        name, equals, value = (part.strip() for part in line.partition("="))
-        require(equals, f"{path}: '{line}' is no line 'name = value'")
-        if f"--{name}" in flags:
-            require(value in ("", "true", "1"), f"{path}: '{line}': {name} takes no value; leave out what follows '='")
-        if f"--{name}" not in won:
-            found += [f"--{name}"] if f"--{name}" in flags else [f"--{name}", value]
-    return found
 
 
 def require_known(words, parser):
@@ -135,10 +111,6 @@ def parse(command, words):
         require(options.help == "all", f"--help {options.help}: write --help for the basic options, or --help all for all")
         put(help_text(command, parser))
         return None
-    if options.config:
-        more = config_words(options.config, parser, words)
-        require_known(more, parser)
-        options = parser.parse_args(words, parser.parse_args(more))
     require(not (command.markdown and options.json and options.markdown), "--json and --markdown: print one of the two")
     require_separate(options)
     return options
@@ -147,7 +119,7 @@ def parse(command, words):
 def require_separate(options):
     """A file that is written is neither read nor written a second time."""
     given = [("the file", name) for name in options.files]
-    given += [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in ("config", "hard_cases", *WRITTEN)
+    given += [(f"--{name.replace('_', '-')}", getattr(options, name)) for name in ("hard_cases", *WRITTEN)
               if getattr(options, name, None) is not None]
     for place, (option, path) in enumerate(given):
         require(path != "", f"{option}: the file name is empty; name a file")

@@ -52,7 +52,7 @@ TEST(ReportCommands, help_names_every_command_and_option) {
   for (const ReportCommand& command : report_commands()) {
     EXPECT_NE(out.str().find("  " + std::string(command.name) + " "), std::string::npos);
   }
-  for (const char* option : {"--html", "--xdmf", "--json", "--quiet", "--config", "--version"}) {
+  for (const char* option : {"--html", "--xdmf", "--json", "--quiet", "--version"}) {
     EXPECT_NE(out.str().find(option), std::string::npos) << option;
   }
 }

@@ -1,7 +1,6 @@
 """pbreport effects: costs, errors and noise floors in words and numbers."""
 import pathlib
 import sys
-import tempfile
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "src/app"))
@@ -102,14 +101,6 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(options.scene, ["A", "B", "C"])
         self.assertEqual(parse(effects.COMMAND, ["a.h5"]).scene, [])
         self.assertIn("more than once", self.refusal("a.h5", "--csv", "a", "--csv", "b"))
-
-    def test_the_command_line_wins_over_a_config_file(self):
-        with tempfile.NamedTemporaryFile("w", suffix=".cfg", encoding="utf-8") as config:
-            config.write("scene = A\nscene = B\nquiet =\n")
-            config.flush()
-            self.assertEqual(parse(effects.COMMAND, ["a.h5", "--config", config.name]).scene, ["A", "B"])
-            options = parse(effects.COMMAND, ["a.h5", "--scene", "C", "--config", config.name])
-            self.assertEqual((options.scene, options.quiet, options.files), (["C"], True, ["a.h5"]))
 
     def test_no_file_is_written_over_that_is_read(self):
         this = __file__
