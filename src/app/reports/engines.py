@@ -96,25 +96,22 @@ class Held:
 
 
 class Engines:
-    """What the studies say. `differences`: {(engine, text): scenes}, what an engine takes otherwise than ODE; `unknown`: {path: engines} of
-    the studies that did not record them."""
+    """What the studies say. `differences`: {(engine, text): scenes}, what an engine takes otherwise than ODE."""
 
     def __init__(self, studies, names):
         self.studies, self.scenes, self.held, self.map = list(studies.values()), [], [], None
-        self.differences, self.unknown = {}, {}
+        self.differences = {}
         if "accuracy" in studies:
             self.scenes = [Scene(cases) for cases in accuracy.scenes_of(studies["accuracy"], names)]
-            self.add_differences(studies["accuracy"], [scene.name for scene in self.scenes],
-                                 [engine.name for scene in self.scenes for engine in scene.engines])
+            self.add_differences(studies["accuracy"], [scene.name for scene in self.scenes])
         if "stability" in studies:
             self.map = stability.map_of(studies["stability"])
             self.held = [Held(self.map, place) for place in range(len(self.map.settings))]
-            self.add_differences(studies["stability"], [scene.name for scene in self.map.scenes], [one.engine for one in self.held])
+            self.add_differences(studies["stability"], [scene.name for scene in self.map.scenes])
         self.differences = dict(sorted(self.differences.items(), key=lambda one: one[0][0]))
 
-    def add_differences(self, study, scenes, engines):
-        if "differences" not in study.tables:  # before version 1.7
-            self.unknown[study.path] = list(dict.fromkeys(engines))
+    def add_differences(self, study, scenes):
+        require("differences" in study.tables, f"{study.path}: it does not say what engines take otherwise, as studies before version 1.7; run it again")
         for scene in scenes:
             for row in (row for row in study.rows("differences") if row.scene == scene):
                 known = self.differences.setdefault((row.engine, row.text), [])
@@ -186,8 +183,7 @@ def case_table(found):
 
 
 def difference_table(found):
-    rows = [["all", path, "unknown: the study is of an older version"] for path in found.unknown]
-    rows += [[engine, joined(scenes, MOST_NAMES), text] for (engine, text), scenes in found.differences.items()]
+    rows = [[engine, joined(scenes, MOST_NAMES), text] for (engine, text), scenes in found.differences.items()]
     return Table("What an engine cannot express, or takes otherwise", ["engine", "in", "what"], rows or [["all", "-", "nothing"]])
 
 
@@ -252,7 +248,6 @@ def json_of(found):
     return {"studies": studies, "scenes": scenes,
             "hard_cases": [{"setting": one.setting, "engine": one.engine, "all": one.all, "groups": one.groups} for one in found.held],
             "differences": [{"engine": engine, "text": text, "scenes": scenes} for (engine, text), scenes in found.differences.items()],
-            "unknown_engines": list(dict.fromkeys(name for names in found.unknown.values() for name in names)),
             "not_comparable": NOT_COMPARABLE}
 
 

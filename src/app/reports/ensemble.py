@@ -8,7 +8,8 @@ from reports import page, tables
 from reports.command_line import Command, Listed, add_table_option, deliver, parse, require_table
 from reports.document import MARKDOWN, PAGE, TEXT, Report, Section, Table
 from reports.files import require
-from reports.runs import OBSERVABLES, Run, difference_text, differences
+from reports.runs import OBSERVABLES, difference_text, differences
+from reports.one_run.run_tables import RunTables
 from reports.samples import quantile, total
 from reports.study import ensemble_charts
 from reports.tables import Values
@@ -40,17 +41,12 @@ COMMAND = Command("ensemble", "Compares runs of one scene that differ in --seed 
                   add_options=add_options)
 
 
-class Member(Run):
-    """A run, its bodies and its frames. body_name, actor, kind, body_world: [N]; world_id: [W], numbers in the ensemble; step, time [s],
-    number: [T]."""
+class Member(RunTables):
+    """A run of an ensemble. world_id: [W], numbers in the ensemble."""
 
     def __init__(self, path):
         super().__init__(path)
-        bodies = ("name", "actor", "kind", "world")
-        self.body_name, self.actor, self.kind, self.body_world = (self.column(f"particles/bodies/{what}") for what in bodies)
         self.world_id = self.column("worlds/id") if self.has("worlds/id") else np.arange(self.num_worlds)
-        self.step, self.time = self.frames("timings/frame/step"), self.frames("timings/frame/time")
-        self.number = self.first_frame + np.arange(self.num_frames)
         fit = len(self.body_name) == len(self.actor) == len(self.kind) == len(self.body_world) and len(self.world_id) == self.num_worlds
         self._require(fit and all(0 <= world < self.num_worlds for world in self.body_world), "its bodies and worlds do not fit together")
 
@@ -130,9 +126,9 @@ def require_comparable(first, run, options):
                                                     f"{run.record_every}; give all the same --record-every")
     frames = min(first.num_frames, run.num_frames)
     require(frames > 0, f"{both}: one of them has no frame")
-    same = ((first.number[:frames] == run.number[:frames]) & (first.measured[:frames] == run.measured[:frames])
+    same = ((first.frame_number[:frames] == run.frame_number[:frames]) & (first.measured[:frames] == run.measured[:frames])
             & (abs(first.time[:frames] - run.time[:frames]) <= 1e-9))  # times are step x dt, so another dt rounds differently
-    require(same.all(), f"{both}: frame {first.number[same.argmin()]} is not at the same time in both, or is warm-up in one; give all the "
+    require(same.all(), f"{both}: frame {first.frame_number[same.argmin()]} is not at the same time in both, or is warm-up in one; give all the "
                         "same frame length, warm-up and start")
 
 
@@ -201,7 +197,7 @@ def spread_columns(spread, unit="", prefix=""):
 
 def frame_columns(run, frames):
     """`frames`: the index of each row's."""
-    return [Values("frame", "", run.number[frames]), Values("step", "", run.step[frames]), Values("time", "s", run.time[frames]),
+    return [Values("frame", "", run.frame_number[frames]), Values("step", "", run.step[frames]), Values("time", "s", run.time[frames]),
             Values("measured", "", run.measured[frames].astype(int))]
 
 
@@ -378,7 +374,7 @@ def head(ensemble):
     first, last = ensemble.first, ensemble.num_frames - 1
     samples = "each world of each run" if ensemble.over == WORLDS else "runs"
     lines = [f"scene: {first.scene}", f"samples: {ensemble.num_samples} ({samples})",
-             f"frames: {first.number[0]} to {first.number[last]} ({first.time[last]:.6g} s)",
+             f"frames: {first.frame_number[0]} to {first.frame_number[last]} ({first.time[last]:.6g} s)",
              f"state_hashes: {len({run.hash() for run in ensemble.runs})} different in {len(ensemble.runs)} runs",
              *(f"differs: {one}" for one in ensemble.differences)]
     return "\n".join(lines) + "\n"

@@ -109,9 +109,8 @@ class Report(unittest.TestCase):
         nothing = {name: [] for name in OF_ACCURACY}
         alike = engines.Engines(studies(stability=(STABILITY, nothing)), [])
         self.assertEqual(engines.difference_table(alike).rows, [["all", "-", "nothing"]])
-        old = engines.Engines(studies(accuracy=(ACCURACY, OF_ACCURACY), stability=(STABILITY, None)), [])
-        self.assertEqual(engines.difference_table(old).rows[0], ["all", "stability.h5", "unknown: the study is of an older version"])
-        self.assertEqual(json_of(old)["unknown_engines"], ["bullet", "sor"])
+        with self.assertRaisesRegex(BadInput, "stability.h5: it does not say what engines take otherwise"):
+            engines.Engines(studies(accuracy=(ACCURACY, OF_ACCURACY), stability=(STABILITY, None)), [])
 
     def test_a_chart_has_a_line_an_engine_and_marks_what_says_nothing(self):
         nature, own = (engines.front_chart(self.found.scenes[0], yardstick).config for yardstick in (engines.NATURE, engines.OWN))

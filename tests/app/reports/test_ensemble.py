@@ -1,4 +1,4 @@
-"""pbreport ensemble: spreads of samples, which runs are samples of the same, and the HDF5 file of an ensemble."""
+"""pbreport ensemble: spreads of samples, and which runs are samples of the same."""
 import pathlib
 import sys
 import types

@@ -84,7 +84,7 @@ class RunTables(Run):
         if not self.has(table.group):
             return []
         group = self.file[table.group]
-        if table.name == "world_results" and group.attrs["num_worlds"] <= 0:  # a run that was cut off
+        if table.name == "world_results" and group.attrs.get("num_worlds", 0) <= 0:  # a run that was cut off
             return []
         names = [name for name in table.columns if name in group]
         names += sorted(name for name in group if name not in names) if table.owns_group else []
