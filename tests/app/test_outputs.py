@@ -145,8 +145,6 @@ class NothingOverwritten(ProgramTest):
             writers = [lambda: self.pbmpi(1, *SHORT, "--output", name),
                        lambda: self.pbmpi(2, *SHORT, "--output", name),
                        lambda: self.pbmpi(1, *SHORT, "--output", "new.h5", "--checkpoint", name),
-                       lambda: self.report("ensemble", "run.h5", "b.h5", "--output", name),
-                       lambda: self.report("diff", "run.h5", "b.h5", "--output", name),
                        lambda: self.run_command([*pbstudy, *STUDY[1:], "--output", name]),
                        lambda: self.run_command([*pbstudy, "calibrate", "--output", name])]
             if name != "text":  # a text may replace a text

@@ -93,7 +93,7 @@ class ReportTest(ProgramTest):
         study = [PBSTUDY, "effects", "--scene", "CrashSk", "--effect", "friction", "--frames", "1", "--repeats", "1", "-o", "study.h5", "-q"]
         self.assertEqual(self.run_command(study).returncode, 0)
         for args in (["run.h5", "--html", f"{disk}/x.html"], ["csv", "run.h5", "-o", f"{disk}/x.csv"], ["csv", "run.h5", "-o", "/dev/full"],
-                     ["diff", "run.h5", "run.h5", "-o", f"{disk}/x.h5"], ["diff", "run.h5", "run.h5", "--html", f"{disk}/x.html"],
+                     ["diff", "run.h5", "run.h5", "--html", f"{disk}/x.html"],
                      ["study.h5", "--csv", "/dev/full"], ["study.h5", "--html", f"{disk}/x.html"]):
             result = self.report(*args)
             self.assertEqual((result.returncode, len(result.stderr.splitlines())), (1, 1), (args, result.stderr))
