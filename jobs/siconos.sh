@@ -47,8 +47,7 @@ python=${PYTHON:-python3}
   echo "siconos.sh: python3-siconos or python3-h5py is missing; apt-get install them" >&2; exit 2; }
 
 if [[ ${#cases[@]} == 0 ]]; then
-  mapfile -t cases < <("$bin/pbmpi" --list-scenes | awk '
-    /^Hard cases/ { hard = 1; next } !hard { next } /^  hard\// { group = $1; next } { for (i = 1; i <= NF; ++i) print group $i }')
+  mapfile -t cases < <("$bin/pbmpi" --list-scenes | awk '/^  hard\// { print $1 }')
 fi
 
 # What all three have: a frame is a step, so that a step stands between two states of the file.

@@ -37,27 +37,6 @@ namespace {
 
 using core::ExitCode;
 
-/// The hard cases group by group, wrapped at this many characters.
-std::string hard_case_list() {
-  constexpr std::size_t width = 100;
-  std::string text = "Hard cases (docs/stability.md):";
-  std::string group;
-  std::size_t line_begin = 0;
-  for (const scenes::SceneInfo& scene : scenes::list_scenes(scenes::SceneGroup::hard)) {
-    const std::size_t name_begin = scene.name.rfind('/') + 1;
-    const bool is_new_group = group != scene.name.substr(0, name_begin);
-    group = scene.name.substr(0, name_begin);
-    const std::string name = scene.name.substr(name_begin);
-    if (is_new_group) text += "\n  " + group;
-    if (is_new_group || text.size() - line_begin + name.size() > width) {
-      line_begin = text.size() + 1;
-      text += "\n   ";
-    }
-    text += " " + name;
-  }
-  return text + "\n";
-}
-
 /// One line per scene: name and title.
 std::string titled_list(scenes::SceneGroup group, const std::string& indent) {
   const std::vector<scenes::SceneInfo> list = scenes::list_scenes(group);
@@ -73,7 +52,7 @@ std::string scene_list() {
   return titled_list(scenes::SceneGroup::paper, "") + "Scenes of single effects (docs/effects.md):\n" +
          titled_list(scenes::SceneGroup::effects, "  ") +
          "Motions known in closed form (docs/accuracy.md):\n" + titled_list(scenes::SceneGroup::exact, "  ") +
-         hard_case_list();
+         "Hard cases (docs/stability.md):\n" + titled_list(scenes::SceneGroup::hard, "  ");
 }
 
 RunSummary settings_summary(const scenes::Scene& scene, const RunSpec& spec, const Provenance& provenance,

@@ -16,8 +16,7 @@ _pbmpi_values() {
   [[ $value != *\|* ]] || offered=$(tr '|' '\n' <<<"$value" | grep -x '[a-z0-9_]*')
   if [[ $1 == --scene ]]; then
     _pbmpi_ask "${2%pb*}pbmpi" --list-scenes
-    offered=$(awk '/:$/ { next } /^    / { for (i = 1; i <= NF; i++) print folder $i; next }
-                 /\/$/ { folder = $1; next } { print $1 }' <<<"$said")
+    offered=$(awk '!/:$/ { print $1 }' <<<"$said")
   fi
   [[ $value != *FILE* && $value != *OUT* ]] || _filedir
   mapfile -t -O "${#COMPREPLY[@]}" COMPREPLY < <(compgen -W "$offered" -- "$cur")
