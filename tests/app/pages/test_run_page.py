@@ -135,7 +135,7 @@ class PageTest(unittest.TestCase):
         self.driver.get_log("browser")
         self.driver.get_log("performance")
         self.driver.get("file://" + (page or self.page) + address)
-        self.wait(lambda: self.js("return Boolean(window.pbreplay && pbreplay.ready)"))
+        self.wait(lambda: self.js("return typeof pb !== 'undefined' && Boolean(pb.replay)"))
 
     def wait(self, condition):
         WebDriverWait(self.driver, browser.WAIT_S, poll_frequency=0.1).until(lambda _: condition())
@@ -147,10 +147,10 @@ class PageTest(unittest.TestCase):
         return self.driver.find_element(By.ID, name)
 
     def frame(self):
-        return self.js("return pbreplay.currentFrame()")
+        return self.js("return pb.replay.currentFrame()")
 
     def snapshot(self):
-        return base64.b64decode(self.js("return pbreplay.snapshot()").split(",", 1)[1])
+        return base64.b64decode(self.js("pb.replay.draw(); return pb.replay.stage.canvas.toDataURL('image/png')").split(",", 1)[1])
 
     def test_loads_without_a_message_on_the_console(self):
         self.open()
@@ -181,18 +181,18 @@ class PageTest(unittest.TestCase):
 
     def test_play_advances_and_pause_holds(self):
         self.open("#world=0&frame=0")
-        self.js("pbreplay.setSpeed(0.25)")
+        self.js("pb.replay.speed = 0.25")
         self.element("play").click()
         self.wait(lambda: self.frame() > 0)
         self.element("play").click()
-        self.assertFalse(self.js("return pbreplay.playing()"))
-        held = self.js("return pbreplay.time()")
+        self.assertFalse(self.js("return pb.replay.playing"))
+        held = self.js("return pb.replay.poses.timeAt(pb.replay.frame)")
         time.sleep(0.3)
-        self.assertEqual(self.js("return pbreplay.time()"), held)
+        self.assertEqual(self.js("return pb.replay.poses.timeAt(pb.replay.frame)"), held)
 
     def test_play_starts_again_after_the_end(self):
         self.open("#world=0&frame=%d" % (FRAMES - 1))
-        self.js("pbreplay.setSpeed(0.1); pbreplay.play()")
+        self.js("pb.replay.speed = 0.1; pb.replay.play()")
         self.wait(lambda: self.frame() == FRAMES)
         self.wait(lambda: self.frame() < FRAMES)
 
@@ -215,51 +215,51 @@ class PageTest(unittest.TestCase):
         body.send_keys(Keys.HOME)
         self.assertEqual(self.frame(), 0)
         body.send_keys(Keys.SPACE)
-        self.assertTrue(self.js("return pbreplay.playing()"))
+        self.assertTrue(self.js("return pb.replay.playing"))
 
     def test_shows_the_recorded_pose(self):
         self.open("#world=0&frame=4")
         # The car starts at x = -4 m and drives at 20 m/s; frame 4 is step 12 at dt = 0.01 s.
-        x, y, z = self.js("return pbreplay.bodyPose(0).position")
-        self.assertEqual(self.js("return pbreplay.bodyName(0)"), "car.chassis")
+        x, y, z = self.js("return [...pb.replay.poses.position.subarray(0, 3)]")
+        self.assertEqual(self.js("return pb.replay.data.bodyNames[0]"), "car.chassis")
         self.assertAlmostEqual(x, -4 + 20 * 0.12, places=5)  # single precision
         self.assertAlmostEqual(z, 0.75, places=5)
 
     def test_interpolates_between_frames_with_unit_quaternions(self):
         self.open("#world=0")
-        self.js("pbreplay.setFrame(4.5)")
-        self.assertAlmostEqual(self.js("return pbreplay.bodyPose(0).position[0]"), -4 + 20 * 0.135, places=5)
-        wheel = self.js("return pbreplay.bodyPose(1).orientation")
+        self.js("pb.replay.setFrame(4.5)")
+        self.assertAlmostEqual(self.js("return pb.replay.poses.position[0]"), -4 + 20 * 0.135, places=5)
+        wheel = self.js("return [...pb.replay.poses.orientation.subarray(4, 8)]")
         self.assertAlmostEqual(sum(c * c for c in wheel), 1, places=5)  # single precision
 
     def test_world_select_changes_what_is_shown(self):
         self.open("#world=0&frame=3")
         first = self.snapshot()
         Select(self.element("world")).select_by_value("3")
-        self.assertEqual(self.js("return pbreplay.world()"), 3)
+        self.assertEqual(self.js("return pb.replay.world"), 3)
         self.assertIn("world 3", self.element("view-label").text)
         self.assertNotEqual(first, self.snapshot())
         Select(self.element("world")).select_by_value("all")
-        self.assertEqual(self.js("return pbreplay.world()"), "all")
+        self.assertEqual(self.js("return pb.replay.world"), "all")
         # Four cars from farther away: more bodies, each smaller.
         self.assertGreater(share(colours(self.snapshot()), is_car), 0.005)
 
     def test_dragging_orbits_and_reset_returns(self):
         self.open("#world=0")
-        before = self.js("return pbreplay.camera().position")
+        before = self.js("return pb.replay.stage.camera.position.toArray()")
         canvas = self.element("canvas")
         webdriver.ActionChains(self.driver).drag_and_drop_by_offset(canvas, 120, 30).perform()
-        after = self.js("return pbreplay.camera().position")
+        after = self.js("return pb.replay.stage.camera.position.toArray()")
         self.assertGreater(max(abs(a - b) for a, b in zip(before, after)), 0.5)
         self.element("reset-view").click()
-        for a, b in zip(before, self.js("return pbreplay.camera().position")):
+        for a, b in zip(before, self.js("return pb.replay.stage.camera.position.toArray()")):
             self.assertAlmostEqual(a, b, places=6)
 
     def test_follow_keeps_the_bodies_in_the_picture(self):
         self.open("#world=0&frame=0&follow=1")
-        before = self.js("return pbreplay.camera()")
-        self.js("pbreplay.setFrame(%d)" % FRAMES)
-        after = self.js("return pbreplay.camera()")
+        before = self.js("return {position: pb.replay.stage.camera.position.toArray(), target: pb.replay.stage.controls.target.toArray()}")
+        self.js("pb.replay.setFrame(%d)" % FRAMES)
+        after = self.js("return {position: pb.replay.stage.camera.position.toArray(), target: pb.replay.stage.controls.target.toArray()}")
         moved = [a - b for a, b in zip(after["target"], before["target"])]
         self.assertGreater(moved[0], 0.3)  # the car drives along +x
         for k in range(3):  # place and target move together
@@ -268,8 +268,8 @@ class PageTest(unittest.TestCase):
     def test_address_makes_a_still(self):
         self.open("#frame=6&world=1&still=1&camera=8,-9,6,0,0,1")
         self.assertEqual(self.frame(), 6)
-        self.assertEqual(self.js("return pbreplay.world()"), 1)
-        self.assertEqual([round(c, 6) for c in self.js("return pbreplay.camera().position")], [8, -9, 6])
+        self.assertEqual(self.js("return pb.replay.world"), 1)
+        self.assertEqual([round(c, 6) for c in self.js("return pb.replay.stage.camera.position.toArray()")], [8, -9, 6])
         self.assertFalse(self.element("play").is_displayed())
 
     def test_plots_are_drawn(self):
@@ -294,7 +294,7 @@ class PageTest(unittest.TestCase):
         canvas = self.driver.find_element(By.CSS_SELECTOR, ".plot canvas")
         webdriver.ActionChains(self.driver).move_to_element_with_offset(canvas, round(at[0]), 0).click().perform()
         self.wait(lambda: self.frame() == 3)  # Chart.js hears of a click with the next picture
-        self.assertEqual(self.js("return pbreplay.frameNumber()"), 3)
+        self.assertEqual(self.js("return pb.replay.numberOf(pb.replay.currentFrame())"), 3)
         self.assertEqual(set(self.js(cursors)), {3})
 
     def test_a_focused_plot_says_its_value_at_the_frame_that_the_arrows_choose(self):
@@ -332,13 +332,13 @@ class PageTest(unittest.TestCase):
         write_page(small, most_bytes=40000)
         self.open(page=small)
         self.assertIn("of 4 worlds", self.element("replay-note").text)
-        self.assertLess(self.js("return pbreplay.numWorlds"), 4)
+        self.assertLess(self.js("return pb.replay.data.numWorlds"), 4)
 
     def test_a_run_without_frames_shows_its_start(self):
         empty = os.path.join(self.folder.name, "empty.html")
         write_page(empty, worlds=1, frames=0)
         self.open(page=empty)
-        self.assertEqual(self.js("return pbreplay.numFrames"), 1)
+        self.assertEqual(self.js("return pb.replay.data.numFrames"), 1)
         self.assertGreater(share(colours(self.snapshot()), is_car), 0.01)
         self.assertEqual([e for e in self.driver.get_log("browser") if e["level"] == "SEVERE"], [])
 

@@ -1,5 +1,5 @@
 'use strict';
-// Starts the page, and opens the replay to scripts (tests, stills) as window.pbreplay and through the address:
+// Starts the page. pb.replay is its replay; the address tells what it shows:
 //   #frame=3        the third recorded frame, 0 = initial pose
 //   &world=0|all    what is shown
 //   &camera=px,py,pz,tx,ty,tz   position and target [m]
@@ -7,31 +7,6 @@
 //   &still=1        the picture alone, with legend and time; &bare=1 without these
 //   &width=1200&height=675      size of the still in CSS pixels; default: the window
 //   &play=1         start playing
-
-pb.publish = (replay) => ({
-  ready: true,
-  numFrames: replay.data.numFrames,
-  numWorlds: replay.data.numWorlds,
-  currentFrame: () => replay.currentFrame(),
-  frameNumber: () => replay.numberOf(replay.currentFrame()),  // as labels and plots count
-  time: () => replay.poses.timeAt(replay.frame),
-  setFrame: (frame) => { replay.pause(); replay.setFrame(frame); },
-  world: () => replay.world,
-  setWorld: (world) => replay.setWorld(world),
-  setCamera: (position, target) => replay.setCamera(position, target),
-  camera: () => ({position: replay.stage.camera.position.toArray(), target: replay.stage.controls.target.toArray()}),
-  resetCamera: () => replay.resetCamera(),
-  play: () => replay.play(),
-  pause: () => replay.pause(),
-  playing: () => replay.playing,
-  setSpeed: (speed) => { replay.speed = speed; replay.byId('speed').value = speed; },
-  // Position [x, y, z] m and orientation (w, x, y, z) of a body as it is shown now.
-  bodyPose: (body) => ({position: Array.from(replay.poses.position.subarray(3 * body, 3 * body + 3)),
-                        orientation: Array.from(replay.poses.orientation.subarray(4 * body, 4 * body + 4))}),
-  bodyName: (body) => replay.data.bodyNames[body],
-  // The picture as PNG data URL.
-  snapshot: () => { replay.draw(); return replay.stage.canvas.toDataURL('image/png'); },
-});
 
 pb.readAddress = (replay) => {
   const asked = new URLSearchParams(location.hash.slice(1));
@@ -61,14 +36,13 @@ pb.start = () => {
     const message = document.getElementById('view-error');
     message.textContent = `The 3D replay needs WebGL, which this browser does not offer (${error.message}).`;
     message.hidden = false;
-    window.pbreplay = {ready: false};
     return;
   }
   replay.onFrame = (frame) => pb.framePlots.setCursor(frame);
   pb.framePlots.onChoose = (frame) => { replay.pause(); replay.setFrame(replay.placeOf(frame)); };
   pb.readAddress(replay);
   window.addEventListener('hashchange', () => pb.readAddress(replay));
-  window.pbreplay = pb.publish(replay);
+  pb.replay = replay;
   const loop = (now) => { replay.tick(now); requestAnimationFrame(loop); };
   requestAnimationFrame(loop);
 };
