@@ -1,8 +1,28 @@
 """The islands of scenes beside the paper's Table 1, from files of runs; and what the paper says of its scenes."""
 import dataclasses
+import math
+
+import numpy as np
 
 from reports.document import Report, Section, Table
-from reports.samples import Summary, summarize
+from reports.samples import total
+
+
+@dataclasses.dataclass
+class Summary:
+    """`stddev`: the population's (divided by n). All zero for an empty sample."""
+    min: float = 0.0
+    max: float = 0.0
+    mean: float = 0.0
+    stddev: float = 0.0
+
+
+def summarize(values):
+    if len(values) == 0:
+        return Summary()
+    values = np.asarray(values, dtype=float)
+    mean = total(values) / len(values)
+    return Summary(float(min(values)), float(max(values)), float(mean), math.sqrt(total((values - mean) ** 2) / len(values)))
 
 
 @dataclasses.dataclass

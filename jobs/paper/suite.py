@@ -3,10 +3,10 @@ import dataclasses
 import heapq
 
 from reports.files import require
-from reports.samples import Summary, summarize, total
+from reports.samples import total
 
 import runs
-from islands import PAPER
+from islands import PAPER, Summary, summarize
 
 TOLERANCE = 0.05  # how much later than the longest island a schedule may end: the repeatability of its time on a quiet machine
 SCENES = list(PAPER)

@@ -11,23 +11,6 @@ def total(values):
     return np.add.accumulate(values)[-1] if len(values) else np.zeros(values.shape[1:])[()]
 
 
-@dataclasses.dataclass
-class Summary:
-    """`stddev`: the population's (divided by n). All zero for an empty sample."""
-    min: float = 0.0
-    max: float = 0.0
-    mean: float = 0.0
-    stddev: float = 0.0
-
-
-def summarize(values):
-    if len(values) == 0:
-        return Summary()
-    values = np.asarray(values, dtype=float)
-    mean = total(values) / len(values)
-    return Summary(float(min(values)), float(max(values)), float(mean), math.sqrt(total((values - mean) ** 2) / len(values)))
-
-
 def quantile(values, q):
     """The q-quantile (0 <= q <= 1) with linear interpolation between order statistics; 0 for an empty sample."""
     if len(values) == 0:

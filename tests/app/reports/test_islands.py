@@ -10,13 +10,17 @@ import numpy as np
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 sys.path[:0] = [str(SOURCE / "jobs/paper"), str(SOURCE / "src/app")]
 import islands  # noqa: E402
+from islands import Summary, summarize  # noqa: E402
 from reports import document  # noqa: E402
 from reports.runs import Run  # noqa: E402
-from reports.samples import Summary  # noqa: E402
 from made_up import write_run  # noqa: E402
 
 
 class Islands(unittest.TestCase):
+    def test_moments_are_of_the_population(self):
+        self.assertEqual(summarize([2, 4, 4, 4, 5, 5, 7, 9]), Summary(2, 9, 5, 2), "divided by n - 1 the last would be 2.138")
+        self.assertEqual(summarize([]), Summary(0, 0, 0, 0))
+
     def read(self, **others):
         with tempfile.TemporaryDirectory() as folder:
             return islands.islands_of(Run(write_run(pathlib.Path(folder) / "run.h5", **others)))
