@@ -1,6 +1,5 @@
 """Numbers as words: what cells and sentences have in common."""
 import math
-import statistics
 
 import numpy as np
 
@@ -35,10 +34,6 @@ def short(value):
         return str(value)
     plain, scientific = np.format_float_positional(value, trim="-"), np.format_float_scientific(value, trim="-")
     return scientific if len(scientific) < len(plain) else plain
-
-
-def median(values):
-    return statistics.median(values) if values else math.nan
 
 
 def joined(names, most):

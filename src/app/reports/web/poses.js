@@ -25,8 +25,8 @@ pb.Poses = class {
     return times[low] + (frame - low) * (times[high] - times[low]);
   }
 
-  // Fills position and orientation: linear in place, along the shorter great arc in orientation (slerp: Shoemake,
-  // "Animating rotation with quaternion curves", SIGGRAPH 1985).
+  // Fills position and orientation: linear in place, along the shorter great arc in orientation, in which
+  // slerpFlat takes four numbers in any order.
   interpolate(frame) {
     const {numBodies, numFrames, position, orientation} = this.replay;
     const low = Math.min(Math.floor(frame), numFrames - 1);
@@ -37,18 +37,6 @@ pb.Poses = class {
       this.position[i] = position[a + i] + share * (position[b + i] - position[a + i]);
     }
     a = 4 * numBodies * low, b = 4 * numBodies * high;
-    for (let i = 0; i < 4 * numBodies; i += 4) this.slerp(orientation, a + i, b + i, share, i);
-  }
-
-  slerp(q, a, b, share, to) {
-    let cosine = 0;
-    for (let k = 0; k < 4; ++k) cosine += q[a + k] * q[b + k];
-    const sign = cosine < 0 ? -1 : 1;
-    const angle = Math.acos(Math.min(1, sign * cosine));
-    const sine = Math.sin(angle);
-    // Below 1e-4 rad the arc and its chord are the same to single precision.
-    const wa = angle < 1e-4 ? 1 - share : Math.sin((1 - share) * angle) / sine;
-    const wb = sign * (angle < 1e-4 ? share : Math.sin(share * angle) / sine);
-    for (let k = 0; k < 4; ++k) this.orientation[to + k] = wa * q[a + k] + wb * q[b + k];
+    for (let i = 0; i < 4 * numBodies; i += 4) THREE.Quaternion.slerpFlat(this.orientation, i, orientation, a + i, orientation, b + i, share);
   }
 };

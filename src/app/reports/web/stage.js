@@ -245,11 +245,10 @@ pb.Stage = class {
   }
 
   setPoses(poses) {
-    const matrix = new THREE.Matrix4(), place = new THREE.Vector3(), turn = new THREE.Quaternion();
+    const matrix = new THREE.Matrix4(), product = new THREE.Matrix4(), place = new THREE.Vector3(), turn = new THREE.Quaternion();
     const one = new THREE.Vector3(1, 1, 1);
     let body = -2, world = -1;
     for (const {mesh, members} of this.groups) {
-      const array = mesh.instanceMatrix.array;
       members.forEach((member, index) => {
         if (member.body !== body || member.world !== world) {
           body = member.body;
@@ -267,7 +266,7 @@ pb.Stage = class {
           place.y += offset[1];
           matrix.compose(place, turn, one);
         }
-        pb.multiplyInto(array, 16 * index, matrix.elements, member.local.elements);
+        mesh.setMatrixAt(index, product.multiplyMatrices(matrix, member.local));
       });
       mesh.instanceMatrix.needsUpdate = true;
     }
@@ -283,15 +282,5 @@ pb.Stage = class {
 
   render() {
     this.renderer.render(this.scene, this.camera);
-  }
-};
-
-// out[at ..] = a b for affine matrices in column order.
-pb.multiplyInto = (out, at, a, b) => {
-  for (let column = 0; column < 4; ++column) {
-    const x = b[4 * column], y = b[4 * column + 1], z = b[4 * column + 2], w = b[4 * column + 3];
-    for (let row = 0; row < 4; ++row) {
-      out[at + 4 * column + row] = a[row] * x + a[4 + row] * y + a[8 + row] * z + a[12 + row] * w;
-    }
   }
 };
