@@ -3,7 +3,6 @@
 #include <iostream>
 #include <new>
 
-#include "app/common/text_output.h"
 #include "core/system/awaited.h"
 #include "mpi/comm/agreement.h"
 #include "mpi/comm/session.h"
@@ -36,6 +35,11 @@ int run_program(const std::string& name,
     std::cerr << name << ": rank " << world.rank() << ": " << error.what() << std::endl;
     mpi::Session::abort(static_cast<int>(core::ExitCode::failed));
   }
+}
+
+void require_printed(std::ostream& out, const std::string& what) {
+  out.flush();
+  if (!out) throw core::RunError(what + " cannot be written to standard output; is the disk full?");
 }
 
 }  // namespace pbmpi::app

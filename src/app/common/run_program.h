@@ -1,7 +1,8 @@
-/// Stands between main() and a parallel program: errors become one message and an exit code.
+/// Stands between main() and a program: errors become one message and an exit code.
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <string>
 
 #include "core/error.h"
@@ -15,5 +16,8 @@ namespace pbmpi::app {
 /// printed and the whole run is aborted, so that nobody waits.
 int run_program(const std::string& name,
                 const std::function<core::ExitCode(const mpi::Communicator&)>& program);
+
+/// Throws core::RunError if not everything printed to `out` has arrived. `what`: e.g. "the report".
+void require_printed(std::ostream& out, const std::string& what);
 
 }  // namespace pbmpi::app

@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "core/system/awaited.h"
 #include "core/system/leftovers.h"
+#include "core/system/signal_handler.h"
 
 namespace pbmpi::app {
 namespace {
@@ -62,19 +63,11 @@ extern "C" void stop_or_end(int signal) {
   static_cast<void>(!write(STDERR_FILENO, heard, std::strlen(heard)));
 }
 
-void install(int signal, void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;
-  sigfillset(&action.sa_mask);
-  sigaction(signal, &action, nullptr);
-}
-
 void install(void (*on_end)(int), void (*on_stop)(int), void (*on_save)(int)) {
-  install(SIGINT, on_end);
-  install(SIGTERM, on_end);
-  install(SIGUSR2, on_stop);
-  install(SIGUSR1, on_save);
+  core::handle_signal(SIGINT, on_end);
+  core::handle_signal(SIGTERM, on_end);
+  core::handle_signal(SIGUSR2, on_stop);
+  core::handle_signal(SIGUSR1, on_save);
 }
 
 }  // namespace

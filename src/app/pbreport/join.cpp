@@ -4,7 +4,7 @@
 #include <ostream>
 
 #include "app/common/options.h"
-#include "app/common/text_output.h"
+#include "app/common/run_program.h"
 #include "app/pbreport/commands.h"
 #include "app/pbreport/python_report.h"
 #include "io/file/output_target.h"

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "app/common/options.h"
-#include "app/common/text_output.h"
+#include "app/common/run_program.h"
 #include "app/pbreport/commands.h"
 #include "io/repair/repair_run.h"
 

@@ -7,7 +7,7 @@
 #include <ostream>
 
 #include "app/common/options.h"
-#include "app/common/text_output.h"
+#include "app/common/run_program.h"
 #include "app/pbreport/python_report.h"
 #include "app/pbreport/summary_from_file.h"
 #include "core/system/descriptor.h"

@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "core/system/leftovers.h"
+#include "core/system/signal_handler.h"
 
 namespace pbmpi::core {
 namespace {
@@ -92,11 +93,7 @@ extern "C" void tell(int) {
 
 /// The first alarm comes after `first_s`.
 void switch_on(unsigned first_s) noexcept {
-  struct sigaction action {};
-  action.sa_handler = tell;
-  action.sa_flags = SA_RESTART;
-  sigfillset(&action.sa_mask);
-  sigaction(SIGALRM, &action, nullptr);
+  handle_signal(SIGALRM, tell);
   alarm(first_s);
 }
 

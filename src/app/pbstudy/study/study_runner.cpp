@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "core/system/awaited.h"
+#include "core/system/signal_handler.h"
 #include "engines/shared_scene.h"
 
 namespace pbmpi::app {
@@ -24,22 +25,14 @@ static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void request_stop(int) { stop_requested = true; }
 
-void install(void (*handler)(int)) {
-  struct sigaction action {};
-  action.sa_handler = handler;
-  action.sa_flags = SA_RESTART;
-  sigfillset(&action.sa_mask);
-  sigaction(SIGUSR2, &action, nullptr);
-}
-
 }  // namespace
 
 StopRequest::StopRequest() {
   stop_requested = false;
-  install(request_stop);
+  core::handle_signal(SIGUSR2, request_stop);
 }
 
-StopRequest::~StopRequest() { install(SIG_DFL); }
+StopRequest::~StopRequest() { core::handle_signal(SIGUSR2, SIG_DFL); }
 
 bool StopRequest::is_set() const { return stop_requested; }
 
