@@ -108,7 +108,6 @@ RunData read_all(hid_t file) {
   read_frames(file, run);
   run.estimate = read_estimate(file, run.frames_committed / record_every, run);
   read_events(file, run);
-  run.world_id = read_world_ids(file, run.num_worlds);
   run.world_results = read_world_results(file);
   if (!run.world_results.empty() && std::ssize(run.world_results) != run.num_worlds)
     throw core::RunError("/world_results has not a row for each world");

@@ -49,7 +49,6 @@ struct RunData {
   std::vector<stepping::RunEvent> events;  ///< events that have a row in the file, in order of arrival
   std::map<std::string, std::int64_t> num_events;  ///< kind -> number, those without a row included
   std::int64_t worlds_moved = 0;                   ///< in all rebalances: worlds, or spaces
-  std::vector<std::int64_t> world_id;              ///< [W] numbers of the worlds in their ensemble
   std::vector<WorldResult> world_results;          ///< [W]; empty if the run did not come to its end
 };
 

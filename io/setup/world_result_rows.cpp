@@ -1,7 +1,5 @@
 #include "io/setup/world_result_rows.h"
 
-#include <numeric>
-
 #include "core/error.h"
 #include "io/hdf5/columns.h"
 #include "io/hdf5/commit_record.h"
@@ -96,14 +94,6 @@ std::vector<WorldResult> read_world_results(hid_t file) {
     }
   }
   return results;
-}
-
-std::vector<std::int64_t> read_world_ids(hid_t file, int num_worlds) {
-  if (has_object(file, "/worlds") && has_object(file, "/worlds/id"))
-    return read_integers(file, "/worlds/id", num_worlds);
-  std::vector<std::int64_t> ids(static_cast<std::size_t>(num_worlds));
-  std::iota(ids.begin(), ids.end(), 0);
-  return ids;
 }
 
 }  // namespace pbmpi::io

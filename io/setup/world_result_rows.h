@@ -20,8 +20,4 @@ void write_world_results(hid_t file, std::span<const WorldResult> results);
 /// core::RunError.
 std::vector<WorldResult> read_world_results(hid_t file);
 
-/// [num_worlds] numbers of the worlds in their ensemble; a file with a layout before 1.6 holds the whole
-/// ensemble.
-std::vector<std::int64_t> read_world_ids(hid_t file, int num_worlds);
-
 }  // namespace pbmpi::io

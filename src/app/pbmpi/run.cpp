@@ -109,7 +109,7 @@ std::unique_ptr<io::RunFile> create_output(const mpi::Communicator& comm, const 
   if (!spec.output) return nullptr;
   io::RunSetup setup;
   setup.path = *spec.output;
-  setup.attributes = run_attributes(work, provenance);
+  setup.attributes = run_attributes(work, provenance, plan);
   setup.parameters = run_parameters(work, provenance);
   setup.world_parameters = world_parameters(work);
   setup.first_world = spec.first_world();

@@ -100,13 +100,18 @@ std::vector<io::WorldParameter> world_parameters(const Work& work) {
   return columns;
 }
 
-std::vector<Parameter> run_attributes(const Work& work, const Provenance& provenance) {
+std::vector<Parameter> run_attributes(const Work& work, const Provenance& provenance,
+                                      const effects::RunPlan& plan) {
+  std::string passes;
+  for (const effects::RunPass& pass : plan.passes())
+    passes += std::string(pass.effect->name) + ": " + pass.reason + "\n";
   return {Parameter::of("pbmpi_version", program_version),
           Parameter::of("git_revision", git_revision),
           Parameter::of("created", provenance.created),
           Parameter::of("seed", static_cast<std::int64_t>(work.spec.seed)),
           Parameter::of("scene", work.scene->name()),
-          Parameter::of("command_line", provenance.command_line)};
+          Parameter::of("command_line", provenance.command_line),
+          Parameter::of("step_plan", passes)};
 }
 
 std::vector<Parameter> run_parameters(const Work& work, const Provenance& provenance) {

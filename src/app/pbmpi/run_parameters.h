@@ -17,8 +17,9 @@ effects::RunPlan gather_plan(const mpi::Communicator& comm, std::span<const step
 /// The columns that only some runs' files have. `plan`: of all worlds.
 io::OptionalColumns optional_columns(const Work& work, const effects::RunPlan& plan);
 
-/// Attributes of the file's root.
-std::vector<io::Parameter> run_attributes(const Work& work, const Provenance& provenance);
+/// Attributes of the file's root. `plan`: of all worlds.
+std::vector<io::Parameter> run_attributes(const Work& work, const Provenance& provenance,
+                                          const effects::RunPlan& plan);
 
 /// What the run's worlds change in the scene.
 std::vector<io::WorldParameter> world_parameters(const Work& work);

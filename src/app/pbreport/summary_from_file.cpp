@@ -1,18 +1,13 @@
 #include "app/pbreport/summary_from_file.h"
 
 #include <algorithm>
-#include <memory>
 #include <numeric>
-#include <optional>
 #include <sstream>
 
 #include "analysis/pose_errors.h"
 #include "core/error.h"
 #include "core/text.h"
-#include "effects/effect_choices.h"
 #include "mpi/spaces/plan/rank_groups.h"
-#include "scenes/parameter_table.h"
-#include "scenes/scene.h"
 #include "stepping/frame.h"
 #include "stepping/run_event.h"
 
@@ -74,35 +69,16 @@ std::vector<int> idle_ranks(const io::RunData& run) {
   return idle;
 }
 
-/// Worlds of `scene` as the run had them: with their numbers in the ensemble, and their parameters.
-std::vector<std::shared_ptr<const model::Model>> build_worlds(const scenes::Scene& scene,
-                                                              const io::RunData& run, std::uint64_t seed) {
-  const std::string text = core::value_in(run.parameters, "parameters_text");
-  std::optional<scenes::ParameterTable> parameters;
-  if (!text.empty()) parameters.emplace(core::value_in(run.parameters, "parameters_file"), text);
-  std::vector<std::shared_ptr<const model::Model>> worlds;
-  for (const std::int64_t id : run.world_id) {
-    const auto number = static_cast<int>(id);
-    const bool has_row = parameters && number < parameters->num_worlds();
-    worlds.push_back(scene.build(number, seed, has_row ? parameters->of_world(number) : scenes::Overrides()));
+/// The effects of the run's plan, of which each line is "friction: 12 contacts".
+std::vector<EffectSummary> effects_of(const std::string& plan) {
+  std::vector<EffectSummary> effects;
+  std::istringstream lines(plan);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end = line.find(": ");
+    core::require_input(end != std::string::npos, "the attribute step_plan has a line '" + line + "'");
+    effects.push_back({line.substr(0, end), line.substr(end + 2)});
   }
-  return worlds;
-}
-
-/// The effects that the scene calls for, from the scene's text in the file. None if this pbmpi cannot read
-/// the text (a newer scene format): the rest of the summary is still valid.
-std::vector<EffectSummary> effects_of(const io::RunData& run, std::uint64_t seed) {
-  try {
-    const std::string name = core::value_in(run.attributes, "scene");
-    const auto scene =
-        scenes::parse_scene({name, name + ".toml", core::value_in(run.parameters, "scene_text")}, {},
-                            effects::parse_effect_choices(core::value_in(run.parameters, "effects")));
-    effects::RunPlan plan;
-    for (const auto& world : build_worlds(*scene, run, seed)) plan.add(*world);
-    return effect_summaries(plan);
-  } catch (const core::InputError&) {
-    return {};
-  }
+  return effects;
 }
 
 /// Events of a kind in the whole run, including those for which the file had no row.
@@ -223,7 +199,7 @@ RunSummary summary_from_file(const io::RunData& run, const std::string& path) {
   summary.first_frame =
       std::atoll(core::value_in(run.attributes, "first_frame").c_str());  // files of 1.0 have none
   take_invariants(observed_frames(run), summary);
-  summary.effects = effects_of(run, summary.seed);
+  summary.effects = effects_of(core::value_in(run.attributes, "step_plan"));
   summary.effects_chosen = core::value_in(run.parameters, "effects");
   summary.rebalances = num_events(run, stepping::event_kind::rebalance);
   summary.worlds_moved = run.worlds_moved;
