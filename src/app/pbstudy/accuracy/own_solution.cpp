@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/clock.h"
 #include "core/random.h"
@@ -20,29 +21,19 @@ constexpr double disturbance = 1e-12;  // [m] and [m/s]
 /// A frame is solved once four times as many iterations move no body farther.
 constexpr double settled_m = 1e-5;
 
-/// Does one frame of some worlds of a case.
-class FrameSolver {
- public:
-  FrameSolver(const AccuracyCase& one, const Worlds& worlds, int frame)
-      : one_(one), worlds_(worlds), first_step_(static_cast<std::int64_t>(frame) * one.steps_per_frame) {}
-
-  /// Writes the end states of the worlds `which` into `ends` [num_worlds].
-  void solve(const std::vector<int>& which, const States& start, int iterations, States& ends) const {
-    const auto stepper = engines::make_stepper(own_settings(one_.stepper, iterations), "own solution: ");
-    for (const int world : which) {
-      const auto place = static_cast<std::size_t>(world);
-      stepper->add(world, worlds_[place], start[place], first_step_);
-    }
-    core::PhaseTimes times;
-    stepper->advance(one_.steps_per_frame, times);
-    for (const int world : which) ends[static_cast<std::size_t>(world)] = stepper->state(world);
+/// Does frame `frame` of the worlds `which` of a case, and writes their ends into `ends` [num_worlds].
+void solve_frame(const AccuracyCase& one, const Worlds& worlds, int frame, const std::vector<int>& which,
+                 const States& start, int iterations, States& ends) {
+  const auto stepper = engines::make_stepper(own_settings(one.stepper, iterations), "own solution: ");
+  const std::int64_t first_step = static_cast<std::int64_t>(frame) * one.steps_per_frame;
+  for (const int world : which) {
+    const auto place = static_cast<std::size_t>(world);
+    stepper->add(world, worlds[place], start[place], first_step);
   }
-
- private:
-  const AccuracyCase& one_;
-  const Worlds& worlds_;
-  std::int64_t first_step_;
-};
+  core::PhaseTimes times;
+  stepper->advance(one.steps_per_frame, times);
+  for (const int world : which) ends[static_cast<std::size_t>(world)] = stepper->state(world);
+}
 
 /// The largest displacement [m] of a body between two states; NaN if any is NaN.
 double farthest_m(const State& a, const State& b) {
@@ -53,12 +44,6 @@ double farthest_m(const State& a, const State& b) {
     if (std::isnan(most)) break;
   }
   return most;
-}
-
-std::vector<int> all_of(const Worlds& worlds) {
-  std::vector<int> all(worlds.size());
-  for (std::size_t world = 0; world < all.size(); ++world) all[world] = static_cast<int>(world);
-  return all;
 }
 
 }  // namespace
@@ -85,11 +70,11 @@ OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
   for (int frame = scene_.warmup; frame < scene_.total_frames(); ++frame) {
     const double start_s = core::thread_cpu_s();
     const States& start = nature_.states[static_cast<std::size_t>(frame)];
-    const FrameSolver solver(one, found.worlds, frame);
-    std::vector<int> open = all_of(found.worlds);
+    std::vector<int> open(found.worlds.size());
+    std::iota(open.begin(), open.end(), 0);
     std::vector<int> used(open.size(), options_.own_iterations);
     States ends(open.size());
-    solver.solve(open, start, options_.own_iterations, ends);
+    solve_frame(one, found.worlds, frame, open, start, options_.own_iterations, ends);
     States fewer = ends;
     for (std::int64_t wanted = 4 * std::int64_t{options_.own_iterations};
          traits_of(one.stepper.kind).iterates && wanted <= options_.own_most_iterations && !open.empty();
@@ -98,7 +83,7 @@ OwnSolutions::Solution OwnSolutions::solve(const AccuracyCase& one) const {
         fewer[static_cast<std::size_t>(world)] = ends[static_cast<std::size_t>(world)];
         used[static_cast<std::size_t>(world)] = static_cast<int>(wanted);
       }
-      solver.solve(open, start, static_cast<int>(wanted), ends);
+      solve_frame(one, found.worlds, frame, open, start, static_cast<int>(wanted), ends);
       std::erase_if(open, [&](int world) {  // a world that is not finite will not settle either
         const auto place = static_cast<std::size_t>(world);
         return !(farthest_m(fewer[place], ends[place]) > settled_m);
@@ -127,9 +112,8 @@ OwnSolutions::Solution OwnSolutions::solve_disturbed(const AccuracyCase& one, co
       worlds_by_iterations[own.iterations[i][world]].push_back(static_cast<int>(world));
     }
     States ends(start.size());
-    const FrameSolver solver(one, own.worlds, static_cast<int>(frame));
     for (const auto& [iterations, worlds] : worlds_by_iterations)
-      solver.solve(worlds, start, iterations, ends);
+      solve_frame(one, own.worlds, static_cast<int>(frame), worlds, start, iterations, ends);
     found.ends.push_back(std::move(ends));
     found.times_s.push_back(core::thread_cpu_s() - start_s);
   }
