@@ -312,8 +312,8 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.element("scene").text, "Sample <crash>")
         self.assertEqual(self.element("state-hash").text, "0123456789abcdef")
         self.assertEqual(self.element("complete").text, "complete")
-        self.js("document.getElementById('settings').open = true")
-        self.assertIn("iterations", self.element("settings-tables").text)
+        self.js("document.querySelector('#provenance details').open = true")
+        self.assertIn("iterations", self.element("provenance").text)
 
     def test_fits_a_phone(self):
         self.open()

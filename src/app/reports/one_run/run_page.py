@@ -78,7 +78,7 @@ def event_lines(run):
 def about(run, summary):
     shown = [dict(zip(("label", "value", "note"), fact)) for fact in facts(summary)]
     return {"scene": run.scene or "run", "complete": run.complete, "frames_committed": run.num_frames, "attributes": run.attributes,
-            "parameters": run.parameters, "events": event_lines(run), "facts": shown}
+            "events": event_lines(run), "facts": shown}
 
 
 def bins(values, per_bin):
@@ -226,7 +226,7 @@ def replay(run, chosen):
 def text_of(run, summary, most_bytes=MOST_POSE_BYTES):
     blocks = {"about": about(run, summary), "plots": plots(run, summary["frame_rate"]["budget_s"]),
               "replay": replay(run, Selection(run, most_bytes)),
-              "provenance": {"line": page.joined(page.origin(run.attributes), f"page by {page.version_line()}"), "entries": []}}
+              "provenance": {"line": page.joined(page.origin(run.attributes), f"page by {page.version_line()}"), "entries": [*run.attributes.items(), *run.parameters.items()]}}
     fields = {name: page.safe_json(block) for name, block in blocks.items()}
     return page.fill("page_html", fields | {"drawn_with": "three.js and Chart.js", "title": html.escape(run.scene or "run", quote=True)})
 

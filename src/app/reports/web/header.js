@@ -1,5 +1,5 @@
 'use strict';
-// The head of the page, its numbers, and the fold-out tables.
+// The head of the page, its numbers, and the events.
 
 pb.showHeader = () => {
   const about = pb.about;
@@ -17,14 +17,6 @@ pb.showHeader = () => {
       pb.element('dd', {},
           pb.element('div', {className: 'value'}, fact.value),
           pb.element('div', {className: 'detail'}, fact.note)))));
-
-  const entries = Object.entries({...about.attributes, ...about.parameters});
-  const isEnvironment = ([name]) => name.startsWith('env_');
-  const fill = (id, label, lines) => pb.scrollable(byId(id), label).append(pb.definitionTable(lines));
-  fill('settings-tables', 'Settings and provenance', entries.filter((entry) => !isEnvironment(entry)));
-  const environment = entries.filter(isEnvironment).map(([name, text]) => [name.slice('env_'.length), text]);
-  byId('environment').hidden = environment.length === 0;
-  fill('environment-table', 'Job environment', environment);
 
   byId('events').hidden = about.events.length === 0;
   byId('event-list').append(...about.events.map((event) => pb.element('li', {}, event)));
