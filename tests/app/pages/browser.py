@@ -5,7 +5,8 @@ import time
 
 CHROMIUM, DRIVER = "/usr/bin/chromium", "/usr/bin/chromedriver"
 FLAGS = ["--headless", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking",
-         "--disable-component-update", "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+         "--disable-component-update", "--disable-sync", "--disable-gpu-rasterization", "--disable-accelerated-2d-canvas",
+         "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--disable-dev-shm-usage", "--window-size=1280,900"]
 WIDTHS = {"desk": 1280, "phone": 390}
 MODES = ("light", "dark")
@@ -72,9 +73,10 @@ class Browser:
         return [entry["message"] for entry in self.driver.get_log("browser")
                 if entry["level"] in ("SEVERE", "WARNING") and not any(known in entry["message"] for known in ("GPU stall", "willReadFrequently"))]
 
-    def screenshot(self):
-        """The whole page as PNG."""
+    def save_screenshot(self, path):
+        """Writes the whole page as PNG."""
         size = self.js("const e = document.documentElement; return [e.clientWidth, e.scrollHeight]")
         clip = {"x": 0, "y": 0, "width": size[0], "height": min(size[1], 8000), "scale": 1}
         picture = self.driver.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True, "clip": clip})
-        return base64.b64decode(picture["data"])
+        with open(path, "wb") as file:
+            file.write(base64.b64decode(picture["data"]))

@@ -4,6 +4,12 @@
   const shown = window.canvasTexts = new Map();
   const context = CanvasRenderingContext2D.prototype;
   const {fillText, clearRect, getImageData} = context;
+  const {getContext} = HTMLCanvasElement.prototype;
+
+  // Each text reads a pixel back, which takes a drawing of the software renderer's GPU milliseconds.
+  HTMLCanvasElement.prototype.getContext = function(kind, settings) {
+    return getContext.call(this, kind, kind === '2d' ? {...settings, willReadFrequently: true} : settings);
+  };
 
   context.clearRect = function(x, y, width, height) {
     if (width * height * this.getTransform().a ** 2 > 0.9 * this.canvas.width * this.canvas.height) shown.set(this.canvas, []);

@@ -226,7 +226,8 @@ def replay(run, chosen):
 def text_of(run, summary, most_bytes=MOST_POSE_BYTES):
     blocks = {"about": about(run, summary), "plots": plots(run, summary["frame_rate"]["budget_s"]),
               "replay": replay(run, Selection(run, most_bytes)),
-              "provenance": {"line": page.joined(page.origin(run.attributes), f"page by {page.version_line()}"), "entries": [*run.attributes.items(), *run.parameters.items()]}}
+              "provenance": {"line": page.joined(page.origin(run.attributes), f"page by {page.version_line()}"),
+                             "entries": [*run.attributes.items(), *run.parameters.items()]}}
     fields = {name: page.safe_json(block) for name, block in blocks.items()}
     return page.fill("page_html", fields | {"drawn_with": "three.js and Chart.js", "title": html.escape(run.scene or "run", quote=True)})
 
