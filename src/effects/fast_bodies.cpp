@@ -114,7 +114,6 @@ void FastBodies::choose(std::span<const int> bodies) {
   chosen_ = static_geoms_;
   for (const int body : bodies)
     chosen_.insert(chosen_.end(), geoms_of_body_[body].begin(), geoms_of_body_[body].end());
-  std::ranges::sort(chosen_);
 }
 
 /// The first test saves the two square roots a geom: the displacement and the rotation each account for less
@@ -148,11 +147,13 @@ bool FastBodies::look(const model::State& state, double dt_s, int pieces) {
     const double half = geometry::half_extent(geom, at.rotation, way / length);
     const bool is_fast = length * pieces > half, may_approach = length > most_approach_m_;
     if (!is_fast && !may_approach) continue;
-    moving_of_geom_[index] = static_cast<int>(moving_.size());
     const core::Vec3 reach = way + half / length * way;
     moving_.push_back({index, ball.family, ball.radius, at, way, reach, is_fast, may_approach});
     if (is_fast) bodies_.push_back(ball.body);
   }
+  // Of two that meet, the lower one finds the contact.
+  std::ranges::sort(moving_, {}, &Moving::geom);
+  for (std::size_t i = 0; i < moving_.size(); ++i) moving_of_geom_[moving_[i].geom] = static_cast<int>(i);
   keep_once(bodies_);
   return !moving_.empty();
 }

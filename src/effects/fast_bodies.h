@@ -148,7 +148,7 @@ class FastBodies {
   std::vector<Ball> balls_;                       ///< [geoms]
   std::vector<std::vector<int>> geoms_of_body_;   ///< [bodies] ascending
   std::vector<int> static_geoms_;                 ///< ascending
-  std::vector<int> chosen_;                       ///< geoms that are considered, ascending, static ones too
+  std::vector<int> chosen_;                       ///< geoms that are considered, static ones too
   std::vector<double> ease_of_turning_;  ///< [bodies] one over the mean moment of inertia [1/(kg m^2)]
   double most_approach_m_;
   std::vector<Moving> moving_;       ///< ascending

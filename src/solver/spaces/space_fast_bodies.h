@@ -1,6 +1,7 @@
 /// Speculative contacts and approaches in a world cut into spaces, as one rank finds them.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
