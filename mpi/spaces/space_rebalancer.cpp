@@ -150,8 +150,7 @@ void split_root_section(const MeasuredFrame& frame, SpaceLoads& loads) {
     for (const int unit : map.units_of_space[space])
       border.bodies += static_cast<int>(map.bodies_of_unit[unit].size());
     num_bodies += border.bodies;
-    if (std::ranges::any_of(now[space], [&](int other) { return owner[other] != owner[space]; }))
-      num_near += border.bodies;
+    if (is_near_others(now[space], owner, static_cast<int>(space))) num_near += border.bodies;
   }
   const double section_s = frame.times.front()[Phase::cross_space];
   if (num_near > 0) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <optional>
+#include <utility>
 
 #include "mpi/balance/partition.h"
 #include "mpi/spaces/plan/rank_groups.h"

@@ -118,7 +118,7 @@ class Ledger {
     for (const int space : borders_) put_border(space, sign);
   }
   void put_border(int space, int sign) {
-    if (is_near_others(loads_, owner_, space))
+    if (is_near_others(loads_.borders[space].neighbours, owner_, space))
       ranks_.front().collide_s += sign * loads_.cross_s * loads_.borders[space].bodies;
   }
   void put_space(int space, int sign) {

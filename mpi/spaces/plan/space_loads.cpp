@@ -68,9 +68,8 @@ void add_island(const SpaceLoads& loads, const std::vector<SpacePart>& island, s
 
 }  // namespace
 
-bool is_near_others(const SpaceLoads& loads, std::span<const int> owner, int space) {
-  return std::ranges::any_of(loads.borders[space].neighbours,
-                             [&](int other) { return owner[other] != owner[space]; });
+bool is_near_others(std::span<const int> neighbours, std::span<const int> owner, int space) {
+  return std::ranges::any_of(neighbours, [&](int other) { return owner[other] != owner[space]; });
 }
 
 PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
@@ -78,7 +77,7 @@ PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner
   std::vector<SolverWork> work(load.ranks.size());
   load.ranks.front().collide_s = loads.root_extra_s;
   for (std::size_t space = 0; space < loads.borders.size(); ++space) {
-    if (is_near_others(loads, owner, static_cast<int>(space)))
+    if (is_near_others(loads.borders[space].neighbours, owner, static_cast<int>(space)))
       load.ranks.front().collide_s += loads.cross_s * loads.borders[space].bodies;
   }
   for (std::size_t space = 0; space < owner.size(); ++space) {

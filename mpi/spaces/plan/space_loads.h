@@ -73,8 +73,8 @@ struct PredictedLoads {
 /// `scratch` [num_ranks] is zeros before and after.
 int solver_of(std::span<const SpacePart> island, std::span<const int> owner, std::span<int> scratch);
 
-/// Is the space near one of another rank?
-bool is_near_others(const SpaceLoads& loads, std::span<const int> owner, int space);
+/// Does another rank own one of these neighbours of the space?
+bool is_near_others(std::span<const int> neighbours, std::span<const int> owner, int space);
 
 /// Predicts the loads under an ownership, `owner` [num_spaces]: an island of several ranks is solved on the
 /// rank of its largest part, and its other parts are shipped there.

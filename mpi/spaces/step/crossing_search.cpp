@@ -7,6 +7,7 @@
 #include "effects/motors.h"
 #include "model/state_parts.h"
 #include "mpi/comm/message.h"
+#include "mpi/spaces/step/wire.h"
 
 namespace pbmpi::mpi {
 
@@ -77,11 +78,8 @@ void CrossingSearch::search(std::int64_t step, core::LapTimer& timer) {
 
 void CrossingSearch::launch_others(std::int64_t step) {
   shared_->stepper->launch_others(step);
-  std::vector<int> changed = shared_->own_spaces();
-  for (const model::Event& event : effects::events_of(shared_->stepper->model(), step)) {
-    if (event.kind == model::EventKind::launch)
-      changed.push_back(shared_->stepper->map().space_of_body(event.body));
-  }
+  std::vector<int> changed = launched_spaces(step);
+  changed.insert(changed.end(), shared_->own_spaces().begin(), shared_->own_spaces().end());
   if (shared_->stepper->has_velocity_rules()) {
     changed.resize(boxes_.size());
     std::iota(changed.begin(), changed.end(), 0);
@@ -178,10 +176,17 @@ void CrossingSearch::watch_next() {
 
 std::vector<std::int32_t> CrossingSearch::sent_spaces(int rank, std::int64_t step) const {
   std::vector<char> sent = watched_;
-  for (const model::Event& event : effects::events_of(shared_->stepper->model(), step)) {
-    if (event.kind == model::EventKind::launch) sent[shared_->stepper->map().space_of_body(event.body)] = 1;
-  }
+  for (const int space : launched_spaces(step)) sent[space] = 1;
   return spaces_of(rank, sent);
+}
+
+std::vector<int> CrossingSearch::launched_spaces(std::int64_t step) const {
+  std::vector<int> spaces;
+  for (const model::Event& event : effects::events_of(shared_->stepper->model(), step)) {
+    if (event.kind == model::EventKind::launch)
+      spaces.push_back(shared_->stepper->map().space_of_body(event.body));
+  }
+  return spaces;
 }
 
 std::vector<std::int32_t> CrossingSearch::spaces_of(int rank, std::span<const char> flags) const {
@@ -193,14 +198,11 @@ std::vector<std::int32_t> CrossingSearch::spaces_of(int rank, std::span<const ch
 }
 
 std::vector<int> CrossingSearch::bodies_of(std::span<const std::int32_t> spaces) const {
-  std::vector<int> bodies;
-  for (const std::int32_t space : spaces) {
-    for (const int unit : shared_->stepper->map().units_of_space[space]) {
-      const std::vector<int>& of_unit = shared_->stepper->map().bodies_of_unit[unit];
-      bodies.insert(bodies.end(), of_unit.begin(), of_unit.end());
-    }
-  }
-  return bodies;
+  const model::SpaceMap& map = shared_->stepper->map();
+  std::vector<int> units;
+  for (const std::int32_t space : spaces)
+    units.insert(units.end(), map.units_of_space[space].begin(), map.units_of_space[space].end());
+  return mpi::bodies_of(map, units);
 }
 
 void CrossingSearch::note_pace(double began_s, double collided_s) {

@@ -82,6 +82,7 @@ class CrossingSearch {
   void watch_next();
   /// The spaces of a rank that are sent before a step, ascending.
   std::vector<std::int32_t> sent_spaces(int rank, std::int64_t step) const;
+  std::vector<int> launched_spaces(std::int64_t step) const;  ///< with a launch in this step, one for each
   /// Those of its spaces whose flag [num_spaces] is set, ascending.
   std::vector<std::int32_t> spaces_of(int rank, std::span<const char> flags) const;
   std::vector<int> bodies_of(std::span<const std::int32_t> spaces) const;

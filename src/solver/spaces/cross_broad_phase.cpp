@@ -49,9 +49,13 @@ bool CrossBroadPhase::find_neighbours(std::span<const int> owner, std::span<cons
 }
 
 std::vector<int> CrossBroadPhase::near_spaces(std::span<const int> owner, std::span<const Box> boxes) {
-  std::vector<int> spaces;
   find_neighbours(owner, boxes);
-  for (std::size_t space = 0; space < boxes.size(); ++space) {
+  return near_spaces();
+}
+
+std::vector<int> CrossBroadPhase::near_spaces() const {
+  std::vector<int> spaces;
+  for (std::size_t space = 0; space < neighbours_.size(); ++space) {
     if (!neighbours_[space].empty()) spaces.push_back(static_cast<int>(space));
   }
   return spaces;

@@ -28,6 +28,7 @@ class CrossBroadPhase {
 
   /// The spaces whose boxes overlap one of another owner's space, ascending.
   std::vector<int> near_spaces(std::span<const int> owner, std::span<const geometry::Box> boxes);
+  std::vector<int> near_spaces() const;  ///< those of the last find_pairs()
 
  private:
   /// A geom that reaches into the box of another owner's space.

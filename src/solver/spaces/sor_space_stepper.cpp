@@ -293,7 +293,7 @@ void SorSpaceStepper::collide_across(std::span<const int> owner, std::span<const
     return !is_awake(model_->geoms[pair.first].body) && !is_awake(model_->geoms[pair.second].body);
   });
   collide_pairs(contacts);
-  if (fast_bodies_) fast_bodies_->add_across(state(), bodies_of(near_spaces(owner, boxes)), owner, contacts);
+  if (fast_bodies_) fast_bodies_->add_across(state(), bodies_of(cross_.near_spaces()), owner, contacts);
 }
 
 void SorSpaceStepper::activate(std::span<const int> units) {
