@@ -31,7 +31,7 @@ ODE_LAW = ("--stepper", "sor", "--law", "ode")
 # now and then on a slow machine.
 OF_THE_MACHINE = re.compile(r"(?:\[?hwloc/.*|pb\w+: warning: \d+ ranks .*take turns on .*|pb\w+: rank 0 waits for .* so far|"
                             r"pbmpi: frame \d.* ETA .*|pbstudy: .* cases done, .*)\n")
-TIMEOUT_S = 120  # a hang, not a slow run: the longest run here takes seconds
+TIMEOUT_S = 300  # a hang, not a slow run: the longest takes seconds on a machine that has nothing else to do
 
 
 def alone(folder):

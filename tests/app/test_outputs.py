@@ -15,7 +15,7 @@ from harness import PBMPI, PBREPORT, TIMEOUT_S, ProgramTest, end_group, rank_pid
 SHORT = ["--scene", "CrashSk", "--frames", "5", "--quiet"]
 LONG = ["--scene", "CrashSk", "--replicas", "4", "--frames", "1000000", "--record-every", "1000", "--quiet"]
 STUDY = ["pbstudy", "accuracy", "--scene", "CrashSk", "--frames", "2", "--floor-seeds", "1", "--iterations", "5",
-         "--nature-steps", "12", "--quiet"]
+         "--nature-steps", "12", "--repeats", "1", "--quiet"]
 SCENE = 'title = "mine"\nbase = "CrashSk"\n'
 
 
@@ -73,12 +73,12 @@ class OneWriter(ProgramTest):
 
     def test_a_second_study_with_the_same_output_is_refused(self):
         study = [os.path.join(os.path.dirname(PBMPI), STUDY[0]), *STUDY[1:], "--output", "study.h5"]
-        first = subprocess.Popen(["mpirun", "-n", "1", *study, "--repeats", "20"], cwd=self.folder, stdout=subprocess.DEVNULL,
+        first = subprocess.Popen(["mpirun", "-n", "1", *study], cwd=self.folder, stdout=subprocess.DEVNULL,
                                  stderr=subprocess.DEVNULL, start_new_session=True)
         self.addCleanup(end_group, first)
         wait_until(lambda: os.path.exists(self.path(".study.h5.lock")), "the study's lock")
         os.kill(list(rank_pids(first).values())[0], signal.SIGSTOP)
-        result = self.run_command(["mpirun", "-n", "1", *study, "--repeats", "1"])
+        result = self.run_command(["mpirun", "-n", "1", *study])
         self.refused(result, "study.h5", "writes it")
         os.kill(list(rank_pids(first).values())[0], signal.SIGCONT)
         self.assertEqual(first.wait(timeout=TIMEOUT_S), 0)
