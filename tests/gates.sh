@@ -31,20 +31,20 @@ avx() {
   python3 tests/gates/avx_code.py build/release/bin/pbmpi build/release/bin/pbstudy
 }
 
-headers() {
+# Each source on its own, as the compiler reads it.
+sources_alone() {
   cmake --preset alone -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
+}
+
+headers() {
+  sources_alone
   python3 tests/gates/compile_alone.py build/alone
 }
 
-# Folder by folder, as what a folder's sources include is most of what there is to parse.
 tidy() {
-  cmake --preset tidy -DPBMPI_BUILD_TESTS=OFF -DPBMPI_BUILD_BENCHMARKS=OFF >/dev/null
-  python3 - build/tidy/compile_commands.json <<'END' |
-import json, os, sys
-files = [unit["file"] for unit in json.load(open(sys.argv[1]))]
-print(*(file for file in files if file.endswith((".cpp", ".cxx")) and os.path.exists(file)), sep="\n")  # generated ones are not there
-END
-    xargs -P "$(nproc)" -n 1 clang-tidy -p build/tidy --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
+  sources_alone
+  python3 tests/gates/joined_sources.py build/alone |
+    xargs -P "$(nproc)" -n 1 clang-tidy -p build/alone/joined --quiet 2> >(grep -v -E '^[0-9]+ warnings? generated\.$' >&2)
 }
 
 # Debian's packages for arm64 are unpacked to build/arm64-sysroot, 0.7 GB; nothing is installed.
