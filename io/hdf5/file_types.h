@@ -8,7 +8,7 @@ namespace pbmpi::io {
 
 /// Version of the file's layout (io/SCHEMA.md): the first number changes when old readers would be misled.
 inline constexpr std::int64_t layout_major = 1;
-inline constexpr std::int64_t layout_minor = 7;
+inline constexpr std::int64_t layout_minor = 8;
 inline constexpr const char* filetype = "pbmpi-run";
 
 /// Group of a run's file that is written last: one row per world.

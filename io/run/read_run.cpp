@@ -87,6 +87,8 @@ void read_frames(hid_t file, RunData& run) {
   for (const std::string& phase : phases) {
     run.rank_times[phase] = read_table(file, "/timings/rank/" + phase, rows, run.num_ranks);
   }
+  if (has_object(file, "/timings/rank/processor"))  // since 1.8
+    run.rank_times["processor"] = read_table(file, "/timings/rank/processor", rows, run.num_ranks);
 }
 
 RunData read_all(hid_t file) {

@@ -43,7 +43,7 @@ struct RunData {
   std::map<std::string, Table> observables;
   std::vector<double> frame_wall_s;         ///< [T]
   std::vector<bool> frame_measured;         ///< [T]
-  std::map<std::string, Table> rank_times;  ///< phase, "useful" -> [T][R] s; "messages", "bytes"
+  std::map<std::string, Table> rank_times;  ///< phase, "useful", "processor" -> [T][R] s; "messages", "bytes"
   EstimateData estimate;
   std::vector<std::string> hosts;          ///< [R]
   std::vector<stepping::RunEvent> events;  ///< events that have a row in the file, in order of arrival

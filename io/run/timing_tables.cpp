@@ -15,10 +15,11 @@ void put_frame(const FrameSource& source, GrowingTable& row) {
 
 std::vector<ColumnSpec> rank_columns() {
   std::vector<ColumnSpec> columns;
-  columns.reserve(core::phase_names.size() + 3);
+  columns.reserve(core::phase_names.size() + 4);
   for (const std::string_view phase : core::phase_names)
     columns.push_back({std::string(phase), H5T_NATIVE_DOUBLE, 1, "s"});
   columns.push_back({"useful", H5T_NATIVE_DOUBLE, 1, "s"});
+  columns.push_back({"processor", H5T_NATIVE_DOUBLE, 1, "s"});
   columns.push_back({"messages", H5T_NATIVE_INT64});
   columns.push_back({"bytes", H5T_NATIVE_INT64, 1, "B"});
   return columns;
@@ -29,8 +30,9 @@ void put_rank(const FrameSource& source, GrowingTable& row) {
   for (std::size_t phase = 0; phase < core::num_phases; ++phase)
     row.put(phase, rank, source.frame.phases.seconds[phase]);
   row.put(core::num_phases, rank, source.frame.phases.useful_s());
-  row.put(core::num_phases + 1, rank, source.frame.traffic.messages);
-  row.put(core::num_phases + 2, rank, source.frame.traffic.bytes);
+  row.put(core::num_phases + 1, rank, source.frame.processor_s);
+  row.put(core::num_phases + 2, rank, source.frame.traffic.messages);
+  row.put(core::num_phases + 3, rank, source.frame.traffic.bytes);
 }
 
 /// The profile of a world, empty for one that has ended.

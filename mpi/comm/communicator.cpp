@@ -10,6 +10,7 @@
 
 #include "core/error.h"
 #include "mpi/comm/check.h"
+#include "mpi/comm/processor_time.h"
 
 namespace pbmpi::mpi {
 
@@ -144,6 +145,7 @@ int Communicator::size() const { return is_null() ? 1 : handle_->size; }
 int Communicator::fortran_handle() const { return MPI_Comm_c2f(is_null() ? MPI_COMM_NULL : handle_->comm); }
 
 void Communicator::barrier() const {
+  const Waiting waiting;
   if (!is_null()) check(MPI_Barrier(handle_->comm), "MPI_Barrier", rank());
 }
 
@@ -157,6 +159,7 @@ void Communicator::bcast_string(std::string& text, int from) const {
 void Communicator::bcast_bytes(void* data, std::size_t count, std::size_t element_size, int from) const {
   if (is_null()) return;
   const ElementType type(element_size, rank());
+  const Waiting waiting;
   check(MPI_Bcast(data, to_count(static_cast<std::int64_t>(count)), type, from, handle_->comm), "MPI_Bcast",
         rank());
 }
@@ -164,6 +167,7 @@ void Communicator::bcast_bytes(void* data, std::size_t count, std::size_t elemen
 void Communicator::allgather_bytes(const void* mine, void* all, std::size_t element_size) const {
   if (is_null()) return copy_bytes(all, mine, element_size);
   const ElementType type(element_size, rank());
+  const Waiting waiting;
   check(MPI_Allgather(mine, 1, type, all, 1, type, handle_->comm), "MPI_Allgather", rank());
 }
 
@@ -171,6 +175,7 @@ void Communicator::allgatherv_bytes(const void* mine, std::size_t count, void* a
                                     const GatherLayout& layout, std::size_t element_size) const {
   if (is_null()) return copy_bytes(all, mine, count * element_size);
   const ElementType type(element_size, rank());
+  const Waiting waiting;
   check(MPI_Allgatherv(mine, to_count(static_cast<std::int64_t>(count)), type, all, layout.counts.data(),
                        layout.displacements.data(), type, handle_->comm),
         "MPI_Allgatherv", rank());
@@ -180,6 +185,7 @@ void Communicator::send_bytes(const void* data, std::size_t count, std::size_t e
                               int tag) const {
   core::require_invariant(!is_null(), "send: the null communicator has no other rank");
   const ElementType type(element_size, rank());
+  const Waiting waiting;
   check(MPI_Send(data, to_count(static_cast<std::int64_t>(count)), type, to, tag, handle_->comm), "MPI_Send",
         rank());
 }
@@ -189,6 +195,7 @@ void Communicator::recv_bytes(void* data, std::size_t count, std::size_t element
   core::require_invariant(!is_null(), "recv: the null communicator has no other rank");
   const ElementType type(element_size, rank());
   MPI_Status status;
+  const Waiting waiting;
   check(MPI_Recv(data, to_count(static_cast<std::int64_t>(count)), type, from, tag, handle_->comm, &status),
         "MPI_Recv", rank());
   int received = 0;
@@ -202,6 +209,7 @@ void Communicator::recv_bytes(void* data, std::size_t count, std::size_t element
 
 void Communicator::allreduce(std::span<double> values, Reduce op) const {
   if (is_null()) return;
+  const Waiting waiting;
   check(MPI_Allreduce(MPI_IN_PLACE, values.data(), to_count(std::ssize(values)), MPI_DOUBLE, to_op(op),
                       handle_->comm),
         "MPI_Allreduce", rank());
@@ -210,6 +218,7 @@ void Communicator::allreduce(std::span<double> values, Reduce op) const {
 // int64_t is long here, which the check does not know to be MPI_INT64_T. NOLINTBEGIN(mpi-type-mismatch)
 void Communicator::allreduce(std::span<std::int64_t> values, Reduce op) const {
   if (is_null()) return;
+  const Waiting waiting;
   check(MPI_Allreduce(MPI_IN_PLACE, values.data(), to_count(std::ssize(values)), MPI_INT64_T, to_op(op),
                       handle_->comm),
         "MPI_Allreduce", rank());
@@ -217,6 +226,7 @@ void Communicator::allreduce(std::span<std::int64_t> values, Reduce op) const {
 
 void Communicator::allreduce(std::span<std::uint64_t> values, Reduce op) const {
   if (is_null()) return;
+  const Waiting waiting;
   check(MPI_Allreduce(MPI_IN_PLACE, values.data(), to_count(std::ssize(values)), MPI_UINT64_T, to_op(op),
                       handle_->comm),
         "MPI_Allreduce", rank());

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "mpi/comm/check.h"
+#include "mpi/comm/processor_time.h"
 
 namespace pbmpi::mpi {
 
@@ -45,6 +46,7 @@ Mail::Mail(const Communicator& comm) : comm_(&comm), posted_(std::make_unique<Po
 // them.
 Mail::~Mail() {
   if (std::uncaught_exceptions() == 0) {
+    const Waiting waiting;
     MPI_Waitall(static_cast<int>(posted_->requests.size()), posted_->requests.data(), MPI_STATUSES_IGNORE);
     return;
   }
@@ -70,7 +72,10 @@ void Mail::post(std::vector<std::byte> message, int to, int tag) {
 
 std::vector<std::byte> Mail::take(int from, int tag) const {
   MPI_Status status;
-  check(MPI_Probe(from, tag, posted_->comm, &status), "MPI_Probe", comm_->rank());
+  {
+    const Waiting waiting;
+    check(MPI_Probe(from, tag, posted_->comm, &status), "MPI_Probe", comm_->rank());
+  }
   int size = 0;
   check(MPI_Get_count(&status, MPI_BYTE, &size), "MPI_Get_count", comm_->rank());
   std::vector<std::byte> message(static_cast<std::size_t>(size));
@@ -86,6 +91,7 @@ bool Mail::has(int from, int tag) const {
 }
 
 void Mail::finish() {
+  const Waiting waiting;
   check(
       MPI_Waitall(static_cast<int>(posted_->requests.size()), posted_->requests.data(), MPI_STATUSES_IGNORE),
       "MPI_Waitall", comm_->rank());
@@ -132,6 +138,7 @@ void PendingMessages::receive(std::span<double> values, int from, int tag) {
 void PendingMessages::wait() {
   auto& open = requests_->open;
   if (open.empty()) return;
+  const Waiting waiting;
   const int code = MPI_Waitall(static_cast<int>(open.size()), open.data(), MPI_STATUSES_IGNORE);
   std::erase(open, MPI_REQUEST_NULL);
   check(code, "MPI_Waitall", comm_->rank());

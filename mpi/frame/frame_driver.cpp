@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "mpi/comm/processor_time.h"
 #include "mpi/comm/tree_gather.h"
 #include "mpi/frame/world_events.h"
 
@@ -62,7 +63,7 @@ WorldRunResult FrameDriver::run() {
 }
 
 void FrameDriver::run_frame() {
-  const double start_s = core::now_s();
+  const double start_s = core::now_s(), processor_start_s = processor_time_s();
   stepping::FrameRecord record;
   record.phases[core::Phase::output] = last_output_s_;
   const double delivered_s = make_estimate(start_s, record.phases);
@@ -86,11 +87,12 @@ void FrameDriver::run_frame() {
   record.measured = frame_ >= settings_.warmup;
   record.worlds = worlds;
   record.traffic = take_traffic();
+  record.processor_s = processor_time_s() - processor_start_s;
   record.wall_s = verdict.wall_s;
   record.deadline_met = verdict.wall_s <= settings_.budget_s;
   publish(record);
-  result_.times.push_back(
-      {record.wall_s, verdict.delivered_s, record.measured, record.phases, record.traffic});
+  result_.times.push_back({record.wall_s, verdict.delivered_s, record.measured, record.phases, record.traffic,
+                           record.processor_s});
 
   if (joints_break_) announce_breaks(worlds);
   if (status.guards_found) announce_guards();

@@ -26,6 +26,7 @@ struct FrameTimes {
   bool measured = false;
   core::PhaseTimes phases;  ///< as in stepping::FrameRecord: `output` belongs to the frame before
   core::Traffic traffic{};  ///< of this rank
+  double processor_s = 0;   ///< as in stepping::FrameRecord
 };
 
 /// Seconds that a rank spent on a world.

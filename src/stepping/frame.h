@@ -56,6 +56,7 @@ struct FrameRecord {
   std::span<const LocalWorld> worlds;  ///< this rank's, by ascending id
   core::PhaseTimes phases;    ///< of this rank; `output` is the time that observers took in the frame before
   core::Traffic traffic;      ///< of this rank; without what MPI's collectives send
+  double processor_s = 0;     ///< processor time of this rank, except for waiting and for `output`
   double wall_s = 0;          ///< start of the frame to the end of its gather: the same on every rank
   bool deadline_met = false;  ///< wall_s within the frame budget: the same on every rank
   const EstimateRecord* estimate = nullptr;  ///< none without FEEC

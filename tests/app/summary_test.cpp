@@ -23,6 +23,7 @@ MeasuredFrames two_frames() {
   frames.islands = {3, 1};
   frames.contacts = {10, 30};
   frames.rows = {100, 120};
+  frames.processor_s = {0.003, 0.007};
   return frames;
 }
 
@@ -63,6 +64,18 @@ TEST(Summary, phases_name_the_ranks_of_min_and_max) {
   EXPECT_EQ(summary.phases[0].max_rank, 1);
   EXPECT_NEAR(summary.phases[0].max_s, 0.006, 1e-12);
   EXPECT_EQ(summary.phases[1].name, "wait");
+}
+
+TEST(Summary, processor_time_is_that_of_the_busiest_rank_in_a_frame) {
+  const RunSummary summary = computed();
+  EXPECT_DOUBLE_EQ(summary.processor.busiest_s, 0.0035);
+  EXPECT_DOUBLE_EQ(summary.processor.mean_s, 0.0025);
+  EXPECT_EQ(summary.processor.busiest_rank, 1);
+  EXPECT_NE(
+      to_text(summary).find("\nprocessor: 3.500 ms a frame on the busiest rank (1), 2.500 ms on the mean "
+                            "one, without waiting\n"),
+      std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(to_json(summary))["processor_time"]["busiest_rank"], 1);
 }
 
 TEST(Summary, json_has_every_key_of_the_contract) {

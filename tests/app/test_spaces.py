@@ -56,6 +56,10 @@ class Spaces(ProgramTest):
             self.assertTrue((rank["cross_space"][:, 0] > 0).all(), "root looks at what crosses in every frame")
             self.assertTrue((rank["cross_space"][:, 1] == 0).all(), "and nobody else does")
             self.assertTrue((rank["messages"][:] > 0).all())
+            self.assertTrue((rank["processor"][:] > 0).all())
+            used = rank["processor"][file["timings/frame/measured"][:] != 0].mean(axis=0)
+            self.assertAlmostEqual(summary["processor_time"]["busiest_s"], used.max(), 12)
+            self.assertEqual(summary["processor_time"]["busiest_rank"], used.argmax())
             self.assertGreater(rank["bytes"][:].sum(), rank["messages"][:].sum())
             self.assertEqual(file["parameters/decompose"][()], b"spaces")
         report = subprocess.run([PBREPORT, self.path("run.h5")], capture_output=True, text=True, check=True,

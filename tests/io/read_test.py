@@ -125,7 +125,7 @@ def follows_h5md(path):
 
 def attributes_are_there(path):
     with h5py.File(path, "r") as f:
-        assert f.attrs["filetype"].decode() == "pbmpi-run" and list(f.attrs["version"]) == [1, 7]
+        assert f.attrs["filetype"].decode() == "pbmpi-run" and list(f.attrs["version"]) == [1, 8]
         assert f.attrs["complete"] == 1 and f.attrs["state_hash"].decode() == "0123456789abcdef"
         assert list(f["h5md"].attrs["version"]) == [1, 1] and f["h5md/creator"].attrs["name"] == b"pbmpi"
         assert f["particles/bodies/position/value"].attrs["unit"] == b"m"

@@ -76,6 +76,7 @@ void expect_sample(const WholeRun& run, const Sample& sample, std::int64_t num_f
     for (int r = 0; r < sample.num_ranks; ++r) {
       EXPECT_EQ(run.rank_times.at("collide")[k][r], sample_phase_s(r, 0, k));
       EXPECT_EQ(run.rank_times.at("output")[k][r], sample_phase_s(r, core::num_phases - 1, k));
+      EXPECT_EQ(run.rank_times.at("processor")[k][r], 1e-3 * static_cast<double>(k + 100 * r));
       EXPECT_EQ(run.rank_times.at("messages")[k][r], k + 10 * r);
       EXPECT_EQ(run.rank_times.at("bytes")[k][r], 8 * k + 1000 * r);
     }
@@ -99,7 +100,7 @@ TEST(RunFile, reads_back_every_number_of_a_complete_run) {
   EXPECT_EQ(run.attributes.at("state_hash"), "0123456789abcdef");
   EXPECT_EQ(run.attributes.at("scene"), "Sample");
   EXPECT_EQ(run.attributes.at("seed"), "7");
-  EXPECT_EQ(run.attributes.at("version"), "1.7");
+  EXPECT_EQ(run.attributes.at("version"), "1.8");
   EXPECT_EQ(run.parameters.at("dt_s"), "0.01");
   EXPECT_EQ(run.parameters.at("scene_text"), "[[actor]]\nkind = \"human\"\n");
   EXPECT_EQ(run.parameters.at("empty"), "");

@@ -184,6 +184,7 @@ void put_frame(RunFile& file, const Sample& sample, std::int64_t frame) {
     record.phases.seconds[phase] = sample_phase_s(sample.rank, phase, frame);
   }
   record.traffic = {frame + 10 * sample.rank, 8 * frame + 1000 * sample.rank};
+  record.processor_s = 1e-3 * static_cast<double>(frame + 100 * sample.rank);
   record.wall_s = sample_wall_s(frame);
   record.deadline_met = frame % 2 == 0;
   const RankWorlds estimated = sample_estimate(sample, frame);

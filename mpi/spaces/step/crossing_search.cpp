@@ -7,6 +7,7 @@
 #include "effects/motors.h"
 #include "model/state_parts.h"
 #include "mpi/comm/message.h"
+#include "mpi/comm/processor_time.h"
 #include "mpi/spaces/step/wire.h"
 
 namespace pbmpi::mpi {
@@ -51,7 +52,10 @@ void CrossingSearch::search_early(std::int64_t step, core::LapTimer& timer) {
   schedule_.note_own(pace_);
   if (has_borders_) schedule_.start_all(core::now_s());
   bool arrived = borders_have_arrived();
-  while (!arrived && schedule_.should_wait(unseen_s_)) arrived = borders_have_arrived();
+  if (!arrived) {
+    const Waiting waiting;
+    while (!arrived && schedule_.should_wait(unseen_s_)) arrived = borders_have_arrived();
+  }
   timer.lap(Phase::wait);
   if (arrived) send_verdict(step, timer);
 }

@@ -1,6 +1,7 @@
 #include "app/pbreport/summary_from_file.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <sstream>
 
@@ -56,6 +57,18 @@ std::vector<std::vector<std::array<double, core::num_phases>>> phases_by_rank(co
     }
   }
   return ranks;
+}
+
+/// [R] seconds over the measured frames; empty for a file of a layout before 1.8.
+std::vector<double> processor_by_rank(const io::RunData& run) {
+  const auto found = run.rank_times.find("processor");
+  if (found == run.rank_times.end()) return {};
+  std::vector<double> sums(static_cast<std::size_t>(run.num_ranks), 0);
+  for (std::size_t frame = 0; frame < run.frame_measured.size(); ++frame) {
+    if (!run.frame_measured[frame]) continue;
+    std::ranges::transform(sums, found->second[frame], sums.begin(), std::plus());
+  }
+  return sums;
 }
 
 /// Ranks that spent no time on any world in the last frame.
@@ -166,6 +179,7 @@ MeasuredFrames measured_frames(const io::RunData& run) {
   MeasuredFrames frames;
   frames.wall_s = only_measured(run.frame_wall_s, run.frame_measured);
   frames.phases = phases_by_rank(run);
+  frames.processor_s = processor_by_rank(run);
   take_counts(observed_frames(run), frames);
   frames.messages = only_measured(sum_over_ranks(run, "messages"), run.frame_measured);
   frames.bytes = only_measured(sum_over_ranks(run, "bytes"), run.frame_measured);

@@ -107,7 +107,7 @@ class Run:
         return self.attributes.get("state_hash", "").strip() or "none (the run was cut off)"
 
     def of_ranks(self, name):
-        """Array [measured frames][R] of floats of a column of /timings/rank: a phase, useful [s]; messages, bytes."""
+        """Array [measured frames][R] of floats of a column of /timings/rank: a phase, useful, processor [s]; messages, bytes."""
         return self.frames(f"timings/rank/{name}")[self.measured].astype(float)
 
 

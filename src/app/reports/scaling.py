@@ -9,7 +9,7 @@ from reports.tables import Values, csv_of, json_of
 from reports.words import percent, plural
 
 TABLES = ("points", "phases", "runs")
-UNITS = {"frame_time": "s", "time": "s", "bytes": "B"}  # of columns; others are counts or ratios
+UNITS = {"frame_time": "s", "processor_time": "s", "time": "s", "bytes": "B"}  # of columns; others are counts or ratios
 
 
 def point_columns(curve):
@@ -23,6 +23,7 @@ def point_columns(curve):
             Column("runs", lambda point: str(len(point.runs))), Column("frame [ms]", lambda point: f"{1e3 * point.median('frame_s'):.4g}"),
             Column("speed-up", beside_base("speed_up")),
             Column("bound", lambda point: f"{point.bound:.2f}"), Column("efficiency", beside_base("efficiency")),
+            Column("by processor time", lambda point: f"{point.processor_speed_up:.2f}" if point.processor_speed_up > 0 else "-"),
             Column("balance", share("pop.load_balance")), Column("serialisation", share("pop.serialisation")),
             Column("transfer", share("pop.transfer")), Column("computation", lambda point: percent(point.computation)),
             Column("root", share("root_share")), Column("messages", lambda point: f"{point.median('messages'):.1f}"),
@@ -107,6 +108,7 @@ def point_row(curve, point):
     counted = {name: point.median(name) for name in ("root_share", "messages", "bytes", "within_budget")}
     return {"is_base": int(point is curve.base), "repeats": len(point.runs), "frame_time": point.median("frame_s"),
             **estimated_json("speed_up", point.speed_up), **estimated_json("efficiency", point.efficiency),
+            "processor_speed_up": point.processor_speed_up, "processor_time": point.median("processor_s"),
             "confidence": point.speed_up.interval.confidence, "ideal_speed_up": point.ideal, "island_bound": point.median("island_bound"),
             **factors, "computation": point.computation, **counted, "reportable": int(not point.doubts), "doubts": point.doubts}
 

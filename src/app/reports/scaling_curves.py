@@ -61,6 +61,7 @@ class ScalingRun:
     island_bound: float  # speed-up with each frame's largest island on one rank; 0 for whole worlds
     messages: float  # a frame, all ranks, inside the steps; so are bytes
     bytes: float
+    processor_s: float  # processor time of the busiest rank in a frame, without waiting; 0 in files of a layout before 1.8
     phase_s: dict  # a frame, mean of the ranks, by phase
 
 
@@ -100,6 +101,11 @@ def of_cut_world(run, seconds):
     return (root_s / (root_s + work_s), work_s / total(bound_s)) if work_s > 0 else (0.0, 0.0)
 
 
+def processor_of(run):
+    """Seconds of the busiest rank; 0 if the file does not have them."""
+    return max(total(run.of_ranks("processor"))) if run.has("timings/rank/processor") else 0.0
+
+
 def read_scaling_run(path):
     """Raises BadInput for what is no run, or has no measured frame."""
     run = Run(path)
@@ -122,7 +128,7 @@ def read_scaling_run(path):
                       processors=int(run.number("processors", 0)), frames=frames, frame_s=frame_s,
                       within_budget=np.count_nonzero(wall_s <= run.number("budget", BUDGET_S)) / frames, useful_s=total(useful_s) / frames,
                       pop=pop_of(useful_s, exchange_s, frames * frame_s), root_share=root_share, island_bound=island_bound,
-                      messages=messages, bytes=num_bytes,
+                      messages=messages, bytes=num_bytes, processor_s=processor_of(run) / frames,
                       phase_s={phase: total(total(values)) / run.num_ranks / frames for phase, values in seconds.items()})
 
 
@@ -160,7 +166,8 @@ class Point(Sample):
 
     speed_up: ratio of worlds simulated a second between the k-th run and the k-th run of the base, so that noise of the machine common to
     both cancels. ideal: the growth in ranks; bound: that or, for a cut world, the bound from its largest island if that is less.
-    efficiency: speed-up / the growth in ranks. computation: useful time of the base, for as many worlds, / that of this point. doubts: why
+    efficiency: speed-up / the growth in ranks. processor_speed_up: the speed-up of worlds a second of the busiest rank's processor time, which
+    ranks that share cores have, too; 0 if unknown. computation: useful time of the base, for as many worlds, / that of this point. doubts: why
     it should not be reported, in words; empty if nothing speaks against it. `hashes`: of all runs of as many worlds."""
 
     def __init__(self, runs, base, hashes, rules):
@@ -168,6 +175,8 @@ class Point(Sample):
         ratios = [one.worlds / one.frame_s / (other.worlds / other.frame_s) for one, other in zip(runs, base.runs)]
         self.speed_up = Estimated(quantile(ratios, 0.5), median_interval(ratios, CONFIDENCE))
         self.efficiency = self.speed_up.times(base.ranks / self.ranks)
+        processor_s = self.median("processor_s") / self.worlds
+        self.processor_speed_up = base.median("processor_s") / base.worlds / processor_s if processor_s > 0 else 0.0
         useful_s = self.median("useful_s") / self.worlds
         self.computation = base.median("useful_s") / base.worlds / useful_s if useful_s > 0 else 0.0
         self.ideal = self.ranks / base.ranks

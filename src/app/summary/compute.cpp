@@ -54,6 +54,14 @@ void compute_efficiency(const MeasuredFrames& frames, double elapsed_s, RunSumma
   summary.parallel_efficiency = summary.load_balance * summary.communication_efficiency;
 }
 
+ProcessorSummary summarize_processor(const MeasuredFrames& frames) {
+  const auto busiest = std::ranges::max_element(frames.processor_s);
+  if (busiest == frames.processor_s.end() || frames.wall_s.empty()) return {};
+  const auto num_frames = static_cast<double>(frames.wall_s.size());
+  return {*busiest / num_frames, mean(frames.processor_s) / num_frames,
+          static_cast<int>(busiest - frames.processor_s.begin())};
+}
+
 /// Seconds of all ranks in one frame.
 struct FrameWork {
   double collide_s = 0, solve_s = 0, section_s = 0;
@@ -114,6 +122,7 @@ void compute_performance(const MeasuredFrames& frames, RunSummary& summary) {
   summary.frame_max_s = largest(frames.wall_s);
   summary.phases = summarize_phases(frames);
   compute_efficiency(frames, elapsed_s, summary);
+  summary.processor = summarize_processor(frames);
   summary.messages_per_frame = mean(frames.messages);
   summary.bytes_per_frame = mean(frames.bytes);
   if (summary.decomposition == "spaces") compute_spaces(frames, elapsed_s, summary);

@@ -37,15 +37,18 @@ ObservedFrames join_ranks(const mpi::Communicator& comm, ObservedFrames observed
 MeasuredFrames gather_times(const mpi::Communicator& comm, const mpi::WorldRunResult& result) {
   MeasuredFrames frames;
   std::vector<double> own;
+  double processor_s = 0;
   for (const mpi::FrameTimes& times : result.times) {
     if (!times.measured) continue;
     frames.wall_s.push_back(times.wall_s);
     frames.messages.push_back(static_cast<double>(times.traffic.messages));
     frames.bytes.push_back(static_cast<double>(times.traffic.bytes));
+    processor_s += times.processor_s;
     own.insert(own.end(), times.phases.seconds.begin(), times.phases.seconds.end());
   }
   comm.allreduce(std::span<double>(frames.messages), mpi::Reduce::sum);
   comm.allreduce(std::span<double>(frames.bytes), mpi::Reduce::sum);
+  frames.processor_s = comm.allgather(processor_s);
   const std::vector<double> all = mpi::gather_rows(comm, std::span<const double>(own));
   if (!comm.is_root()) return frames;
   frames.phases.resize(static_cast<std::size_t>(comm.size()));

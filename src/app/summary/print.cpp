@@ -87,6 +87,11 @@ std::string speed_lines(const RunSummary& s) {
   }
   text += fmt::format("efficiency: parallel {:.1f} % = load balance {:.1f} % x communication {:.1f} %\n",
                       100 * s.parallel_efficiency, 100 * s.load_balance, 100 * s.communication_efficiency);
+  if (s.ranks > 1 && s.processor.busiest_s > 0) {
+    text += fmt::format(
+        "processor: {:.3f} ms a frame on the busiest rank ({}), {:.3f} ms on the mean one, without waiting\n",
+        1e3 * s.processor.busiest_s, s.processor.busiest_rank, 1e3 * s.processor.mean_s);
+  }
   if (s.decomposition == "spaces") {
     text += spaces_lines(s);
   } else if (s.ranks > 1) {
@@ -244,6 +249,11 @@ std::string to_json(const RunSummary& s) {
                         {"load_balance", s.load_balance},
                         {"communication", s.communication_efficiency}};
   json["traffic"] = {{"messages_per_frame", s.messages_per_frame}, {"bytes_per_frame", s.bytes_per_frame}};
+  if (s.processor.busiest_s > 0) {
+    json["processor_time"] = {{"busiest_s", s.processor.busiest_s},
+                              {"busiest_rank", s.processor.busiest_rank},
+                              {"mean_s", s.processor.mean_s}};
+  }
   if (s.memory.max_bytes > 0) {
     json["memory"] = {{"min_bytes", s.memory.min_bytes},
                       {"min_rank", s.memory.min_rank},

@@ -57,6 +57,13 @@ struct SpacesSummary {
   double messages_per_step = 0, bytes_per_step = 0;  ///< over all ranks
 };
 
+/// Processor time of a rank in a frame without waiting, which does not depend on how many ranks share a core;
+/// 0 if unknown.
+struct ProcessorSummary {
+  double busiest_s = 0, mean_s = 0;  ///< of the ranks' means over the measured frames
+  int busiest_rank = 0;
+};
+
 /// The most memory that a rank needed at once; 0 if unknown.
 struct MemorySummary {
   std::int64_t min_bytes = 0, max_bytes = 0;
@@ -93,6 +100,7 @@ struct RunSummary {
   /// What all ranks send each other in a frame: in the steps of worlds that are cut, and to gather poses and
   /// costs of whole worlds. Messages of MPI's collectives are not counted.
   double messages_per_frame = 0, bytes_per_frame = 0;
+  ProcessorSummary processor;
   MemorySummary memory;
   core::Summary islands;
   double contacts_mean = 0, contacts_max = 0, rows_mean = 0, rows_max = 0;
@@ -118,6 +126,7 @@ struct MeasuredFrames {
   std::vector<double> islands, contacts, rows;                            ///< [T] sums over worlds
   std::vector<double> max_island_rows;                                    ///< [T] of the largest island
   std::vector<double> messages, bytes;                                    ///< [T] sums over ranks
+  std::vector<double> processor_s;  ///< [R] without waiting, over all frames; empty for an older file
 };
 
 /// A run's observables, joined over its worlds, from which a summary is made, for a live run as well as for

@@ -36,6 +36,7 @@ io::RunData small_run() {
   run.observables["max_penetration"] = {{9, 9}, {0.003, 0.001}, {0, 0.004}};
   run.rank_times["collide"] = {{5, 5}, {0.001, 0.0005}, {0.003, 0.0015}};
   run.rank_times["wait"] = {{5, 5}, {0, 0.0005}, {0.001, 0.0005}};
+  run.rank_times["processor"] = {{7, 7}, {0.002, 0.001}, {0.002, 0.002}};
   run.rank_times["useful"] = {{5, 5}, {0.001, 0.0005}, {0.003, 0.0015}};
   run.events = {{1, "rebalance", "3 worlds moved"}, {2, "signal", "TERM"}};
   run.num_events = {{"rebalance", 2}, {"signal", 1}, {"joint_broken", 700}};  // more than there are rows
@@ -70,6 +71,16 @@ TEST(SummaryFromFile, names_the_ranks_of_least_and_most_time) {
   EXPECT_NEAR(summary.phases[0].avg_s, 0.003, rounding);
   EXPECT_NEAR(summary.phases[0].max_s, 0.004, rounding);
   EXPECT_EQ(summary.phases[0].max_rank, 0);
+}
+
+TEST(SummaryFromFile, knows_the_processor_time_of_the_busiest_rank_unless_the_file_is_older) {
+  io::RunData run = small_run();
+  const RunSummary summary = summary_from_file(run, "x.h5");
+  EXPECT_NEAR(summary.processor.busiest_s, 0.002, rounding);
+  EXPECT_NEAR(summary.processor.mean_s, 0.00175, rounding);
+  EXPECT_EQ(summary.processor.busiest_rank, 0);
+  run.rank_times.erase("processor");
+  EXPECT_EQ(summary_from_file(run, "x.h5").processor.busiest_s, 0);
 }
 
 TEST(SummaryFromFile, efficiency_is_balance_times_communication) {

@@ -24,7 +24,7 @@ def run_of(ranks, worlds, repeat, frame_s, way="worlds"):
                       stepper="sor", precision="double", decomposition=way, problem={"scene": "Fight"}, program="0.1.0",
                       state_hash=f"hash of {worlds}", complete=True, records_islands=False, ranks=ranks, worlds=worlds, steps_per_frame=3,
                       most_ranks_of_a_host=ranks, processors=8, frames=10, frame_s=frame_s, within_budget=1.0, useful_s=frame_s * ranks,
-                      pop=Pop(1.0, 1.0, 1.0), root_share=0.0, island_bound=0.0, messages=0.0, bytes=0.0,
+                      pop=Pop(1.0, 1.0, 1.0), root_share=0.0, island_bound=0.0, messages=0.0, bytes=0.0, processor_s=2 * frame_s if ranks == 1 else frame_s,
                       phase_s=dict.fromkeys(made_up.PHASES, 0.001))
 
 
@@ -50,6 +50,7 @@ class Curves(unittest.TestCase):
         speed_up, efficiency = two.speed_up, two.efficiency
         found = (speed_up.median, speed_up.interval.low, speed_up.interval.high, efficiency.median, efficiency.interval.high)
         np.testing.assert_allclose(found, (1.6, 1.6, 1.8, 0.8, 0.9), rtol=1e-15)
+        self.assertAlmostEqual(two.processor_speed_up, 2 * 0.9 / 0.5, 15, "medians of the busiest rank's processor time")
 
     def test_grow_weakly_where_each_rank_has_as_many_worlds(self):
         runs = [run_of(1, 3, 1, 1.0), run_of(4, 12, 1, 1.25), run_of(2, 4, 1, 9)]

@@ -40,7 +40,7 @@ KNOWN = (
     RunTable("joints", "forces of joints, and when they broke", "observables/joint", JOINTS, FRAMES,
              ("broken_in", "force", "torque", "control", "rotor", "angle"), True),
     RunTable("timings", "how long frames took", "timings/frame", ONE, FRAMES, ("wall", "deadline_met")),  # the rest are labels
-    RunTable("ranks", "seconds of ranks in their phases", "timings/rank", RANKS, FRAMES, (*PHASES, "useful", "messages", "bytes"), True),
+    RunTable("ranks", "seconds of ranks in their phases", "timings/rank", RANKS, FRAMES, (*PHASES, "useful", "processor", "messages", "bytes"), True),
     RunTable("islands", "islands, each at its lowest body", "timings/island", BODIES, FRAMES, ("bodies", "contacts", "rows", "solve"), True),
     RunTable("spaces", "collision detection by spaces", "timings/space", WORLDS, FRAMES, ("cross_contacts", "collide", "collide_spaces"), True),
     RunTable("estimates", "poses as FEEC estimated them", "estimate", BODIES, RECORDED, POSE),
