@@ -153,14 +153,19 @@ class Ledger {
   std::vector<std::pair<int, Rank>> saved_;
 };
 
-/// Local search over ownerships.
+/// Local search over ownerships, which ends at the latest when it has rated `most_ratings` of them.
 class Search {
  public:
-  Search(const SpaceLoads& loads, std::span<const int> owner, int num_ranks)
-      : loads_(loads), num_ranks_(num_ranks), ledger_(loads, owner, num_ranks), best_(ledger_.rating()) {}
+  Search(const SpaceLoads& loads, std::span<const int> owner, int num_ranks, int most_ratings)
+      : loads_(loads),
+        num_ranks_(num_ranks),
+        most_ratings_(most_ratings),
+        ledger_(loads, owner, num_ranks),
+        best_(ledger_.rating()) {}
 
   /// The best single change; a swap only where nothing less helps. False if none does.
   bool improve() {
+    if (num_ratings_ >= most_ratings_) return false;
     found_.clear();
     find_longest();
     try_moves();
@@ -176,9 +181,12 @@ class Search {
   const std::vector<int>& owner() const { return ledger_.owner(); }
 
  private:
+  static constexpr double least_gain = 1e-6;  ///< of a change, relative
+
   void consider(std::span<const Move> moves) {
+    ++num_ratings_;
     const double time = ledger_.rating_after(moves);
-    if (time >= best_ * (1 - 1e-9)) return;
+    if (time >= best_ * (1 - least_gain)) return;
     best_ = time;
     found_.assign(moves.begin(), moves.end());
   }
@@ -209,10 +217,9 @@ class Search {
     }
   }
   void try_swaps() {
-    constexpr int most_swaps = 20000;
     int num_longest = 0;
     for (int space = 0; space < num_spaces(); ++space) num_longest += is_longest(space) ? 1 : 0;
-    if (num_longest * num_spaces() > most_swaps) return;
+    if (num_longest * num_spaces() > most_ratings_ - num_ratings_) return;
     for (int a = 0; a < num_spaces(); ++a) {
       for (int b = a + 1; b < num_spaces(); ++b) {
         if (owner()[a] == owner()[b] || !(is_longest(a) || is_longest(b))) continue;
@@ -252,9 +259,10 @@ class Search {
   }
 
   const SpaceLoads& loads_;
-  int num_ranks_;
+  int num_ranks_, most_ratings_;
   Ledger ledger_;
   double best_ = 0;
+  int num_ratings_ = 0;
   std::vector<char> longest_;  ///< [num_ranks]
   std::vector<Move> found_;    ///< the best change of this round; empty if there is none
 };
@@ -270,7 +278,9 @@ Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner
   for (const RankLoad& rank : now.ranks) mean_s += (rank.collide_s + rank.solve_s) / num_ranks;
   if (!now.ships && now.makespan_s() <= mean_s * (1 + least_gain))
     return {{}, now.makespan_s(), now.makespan_s()};
-  Search search(loads, owner, num_ranks);
+  // Some 10 ms of root's time, and more where there is much to gain: a little can be found in a later frame.
+  const double most_ratings = 1e4 * std::max(1.0, 8 * (now.makespan_s() / mean_s - 1));
+  Search search(loads, owner, num_ranks, static_cast<int>(std::min(most_ratings, 1e6)));
   for (int change = 0; change < most_changes && search.improve(); ++change) {
   }
   Reassignment result{{}, now.makespan_s(), predict_loads(loads, search.owner(), num_ranks).makespan_s()};
