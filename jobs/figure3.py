@@ -50,11 +50,11 @@ def classify(mnemonic, operands):
 
 
 def disassemble(path):
-    """Address -> classes, of all instructions of one object file."""
+    """Address -> (mnemonic, operands), of all instructions of one object file."""
     text = subprocess.run(["objdump", "-d", "--no-show-raw-insn", "-w", path], capture_output=True, text=True, check=True).stdout
     found = {}
     for match in re.finditer(r"^ *([0-9a-f]+):\t(?:(?:rep[a-z]*|lock|bnd|notrack|data16|cs) )*(\S+) *([^#<\n]*)", text, re.M):
-        found[int(match[1], 16)] = classify(match[2], match[3].strip())
+        found[int(match[1], 16)] = match[2], match[3].strip()
     return found
 
 
@@ -93,11 +93,11 @@ def summarize(dumps, code):
     for (obj, address), count in executed.items():
         if obj not in code:
             code[obj] = disassemble(obj) if pathlib.Path(obj).is_file() else {}
-        classes = code[obj].get(address)
-        if classes is None:
+        instruction = code[obj].get(address)
+        if instruction is None:
             unknown += count
         else:
-            for name in classes:
+            for name in classify(*instruction):
                 mix[name] += count
     operations = sum(mix.values())
     if unknown > 0.02 * total:
