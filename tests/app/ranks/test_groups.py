@@ -25,34 +25,35 @@ def cut(ranks_per_world):
 
 
 class Groups(ProgramTest):
-    def test_the_file_is_that_of_whole_worlds_for_any_groups(self):
+    def test_the_file_is_that_of_whole_worlds_for_any_groups_and_says_which_ranks_cut_which_worlds(self):
         for scene, options in (("Fight", ("--frames", 6)), ("Battle2", ("--frames", 3, "--precision", "single"))):
             run = ("--scene", scene, *THREE, *options, "--record", "contacts")
             self.summary(1, *run, "--decompose", "worlds", "--output", "whole.h5")
             whole = content(self.path("whole.h5"))
             self.assertGreater(len(whole), 60, "the columns of the file, with their states and observables")
-            for ranks, ranks_per_world, _ in FORMS:
+            for ranks, ranks_per_world, form in FORMS:
                 with self.subTest(scene=scene, ranks=ranks, ranks_per_world=ranks_per_world):
                     summary = self.summary(ranks, *run, *cut(ranks_per_world), "--output", "cut.h5")
                     self.assertEqual(summary["decomposition"], "spaces")
                     self.assertEqual(differences(whole, content(self.path("cut.h5"))), [])
+                    self.check_groups(summary, form)
 
-    def test_summary_file_and_pbreport_say_which_ranks_cut_which_worlds(self):
-        for ranks, ranks_per_world, form in FORMS:
-            args = ("--scene", "Fight", *THREE, "--frames", 2, *cut(ranks_per_world))
-            summary = self.summary(ranks, *args, "--output", "cut.h5")
-            groups = [tuple(map(int, one.split(":"))) for one in form.split(",")]
-            self.assertEqual([(group["ranks"], group["worlds"]) for group in summary["spaces"]["groups"]], groups)
-            with h5py.File(self.path("cut.h5")) as file:
-                self.assertEqual(file["parameters/rank_groups"].asstr()[()], form)
-                self.assertEqual(file["parameters/decompose"].asstr()[()], "spaces")
-                owned = [worlds if rank == 0 else 0 for size, worlds in groups for rank in range(size)]
-                self.assertEqual(file["ranks/worlds_at_start"][:].tolist(), owned)
-                cost = file["world_results/cost"][:]
-                self.assertTrue((cost > 0).all())
-                self.assertAlmostEqual(cost.sum() / file["timings/rank/useful"][:].sum(), 1, delta=1e-9)
-            self.assertEqual(self.json(self.report("cut.h5", "--json"))["spaces"], summary["spaces"])
-            self.assertIn("\ngroups: ", self.report("cut.h5").stdout)
+    def check_groups(self, summary, form):
+        """Summary, file and pbreport name the groups."""
+        groups = [tuple(map(int, one.split(":"))) for one in form.split(",")]
+        self.assertEqual([(group["ranks"], group["worlds"]) for group in summary["spaces"]["groups"]], groups)
+        with h5py.File(self.path("cut.h5")) as file:
+            self.assertEqual(file["parameters/rank_groups"].asstr()[()], form)
+            self.assertEqual(file["parameters/decompose"].asstr()[()], "spaces")
+            owned = [worlds if rank == 0 else 0 for size, worlds in groups for rank in range(size)]
+            self.assertEqual(file["ranks/worlds_at_start"][:].tolist(), owned)
+            cost = file["world_results/cost"][:]
+            self.assertTrue((cost > 0).all())
+            self.assertAlmostEqual(cost.sum() / file["timings/rank/useful"][:].sum(), 1, delta=1e-9)
+        self.assertEqual(self.json(self.report("cut.h5", "--json"))["spaces"], summary["spaces"])
+        self.assertIn("\ngroups: ", self.report("cut.h5").stdout)
+
+    def test_one_world_that_is_cut_has_no_groups(self):
         one = self.summary(2, "--scene", "Fight", "--stepper", "sor", "--frames", 2, "--output", "one.h5")
         self.assertNotIn("groups", one["spaces"])
         with h5py.File(self.path("one.h5")) as file:
