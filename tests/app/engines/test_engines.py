@@ -50,7 +50,7 @@ class Engines(ProgramTest):
     def test_one_hash_for_1_to_4_ranks_with_and_without_output(self):
         for engine in self.each():
             for scene, replicas in (("CrashSk", 5), ("2-Cars", 3), ("Fight", 2)):
-                args = ["--scene", scene, "--replicas", replicas, "--frames", 20, "--stepper", engine]
+                args = ["--scene", scene, "--replicas", replicas, "--frames", 8, "--stepper", engine]
                 hashes = {self.summary(ranks, *args, *output)["state_hash"]
                           for ranks, output in ((1, ["--no-output"]), (2, ["--no-output"]), (3, ["--no-output"]),
                                                 (4, ["--output", f"{engine}.{scene}.h5"]))}
@@ -61,7 +61,7 @@ class Engines(ProgramTest):
 
     def test_a_rebalance_does_not_change_the_hash(self):
         for engine in self.each():
-            args = ["--scene", f"{SOURCE}/tests/scenes/Unequal.toml", "--frames", 40, "--stepper", engine, "--no-output"]
+            args = ["--scene", f"{SOURCE}/tests/scenes/Unequal.toml", "--frames", 20, "--stepper", engine, "--no-output"]
             one, three = self.summary(1, *args), self.summary(3, *args)
             self.assertGreater(three["rebalances"]["worlds_moved"], 0, "the worlds are so unequal that they must move")
             self.assertEqual(one["state_hash"], three["state_hash"])
