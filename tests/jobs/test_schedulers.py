@@ -12,7 +12,7 @@ from stub_schedulers import Queue
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SMALL = "--replicas 2 --frames 1"
-LONG = "--replicas 2 --frames 150 --steps-per-frame 300 --record-every 50"
+LONG = "--replicas 2 --frames 60 --steps-per-frame 300 --record-every 20"
 
 
 class SchedulerTest(unittest.TestCase):
