@@ -136,7 +136,7 @@ class Stop(JobTest):
 
     def test_a_job_that_ran_out_of_time_goes_back_into_the_queue_and_on_from_its_checkpoint(self):
         # Seconds of work, of which the first part gets one; the time limit is far.
-        args = ("CrashSk", "--replicas", "2", "--frames", "150", "--steps-per-frame", "300", "--record-every", "50")
+        args = ("CrashSk", "--replicas", "2", "--frames", "60", "--steps-per-frame", "300", "--record-every", "20")
         job_id = self.submit("-n2", "--export=ALL,PBMPI_REQUEUE=yes", SCRIPT, *args)
         first, second = f"CrashSk-{job_id}.h5", f"CrashSk-{job_id}.2.h5"
         self.wait_while_it_runs(job_id, lambda: os.path.exists(self.path(first)), "file")
@@ -148,7 +148,7 @@ class Stop(JobTest):
         job = self.ended(job_id)
         self.assertEqual((job["JobState"], job["ExitCode"]), ("COMPLETED", "0:0"), self.log_of(f"slurm-{job_id}.out"))
         before = self.check_file(first, complete=0)["frames"]
-        self.assertEqual(before + self.check_file(second, complete=1)["frames"], 153)
+        self.assertEqual(before + self.check_file(second, complete=1)["frames"], 63)
         with h5py.File(self.path(second)) as file:
             self.assertEqual(int(file.attrs["first_frame"]), before)
         self.assertTrue(os.path.exists(self.path(f"CrashSk-{job_id}.2.html")))
