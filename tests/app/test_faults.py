@@ -1,7 +1,10 @@
-"""Killed ranks, signals and full disks: what was written stays readable, and nothing hangs."""
+"""Killed ranks, signals and full disks: what was written stays readable, and nothing hangs.
+
+usage: test_faults.py [--kills N]: N runs of which one rank is killed; 12 without it."""
 import os
 import random
 import signal
+import sys
 import time
 import unittest
 
@@ -10,7 +13,7 @@ import numpy
 
 from harness import AT_ONCE, TIMEOUT_S, ProgramTest, rank_pids, wait_until
 
-NUM_KILLS = 20
+NUM_KILLS = 12
 LONG_RUN = ["--scene", "CrashSk", "--replicas", "8", "--frames", "1000000", "--record-every", "100", "--quiet"]
 
 
@@ -116,4 +119,8 @@ class Faults(ProgramTest):
 
 
 if __name__ == "__main__":
+    if "--kills" in sys.argv:
+        place = sys.argv.index("--kills")
+        NUM_KILLS = int(sys.argv[place + 1])
+        del sys.argv[place:place + 2]
     unittest.main()
