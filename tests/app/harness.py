@@ -52,6 +52,8 @@ class ProgramTest(unittest.TestCase):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix="pbmpi-test-")
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.session = tempfile.mkdtemp(prefix="pbmpi-session-")
+        self.addCleanup(shutil.rmtree, self.session, ignore_errors=True)
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -88,6 +90,9 @@ class ProgramTest(unittest.TestCase):
         return drawn
 
     def pbmpi(self, ranks, *args, **options):
+        """A run of so many ranks that is over. One rank is started without mpirun, in a third of the time."""
+        if ranks == 1 and "env" not in options:
+            return self.run_command([PBMPI, *map(str, args)], env=alone(self.session), **options)
         return self.run_command(mpirun(ranks, *args), **options)
 
     def summary(self, ranks, *args):
