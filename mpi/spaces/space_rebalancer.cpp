@@ -10,6 +10,7 @@
 #include "core/clock.h"
 #include "effects/field_of_interest.h"
 #include "geometry/box_tree.h"
+#include "mpi/spaces/plan/load_ledger.h"
 #include "mpi/spaces/plan/space_loads.h"
 #include "mpi/spaces/plan/space_ownership.h"
 #include "mpi/spaces/step/frame_report.h"

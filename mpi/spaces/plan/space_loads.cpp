@@ -1,19 +1,8 @@
 #include "mpi/spaces/plan/space_loads.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace pbmpi::mpi {
-
-double PredictedLoads::makespan_s() const {
-  double collide = 0, solve = 0, both = 0;
-  for (const RankLoad& rank : ranks) {
-    collide = std::max(collide, rank.collide_s);
-    solve = std::max(solve, rank.solve_s);
-    both = std::max(both, rank.collide_s + rank.solve_s);
-  }
-  return ships ? collide + solve : both;
-}
 
 void SolverWork::add(const SolverWork& other, int sign) {
   if (units.empty()) units.resize(other.units.size());
@@ -50,44 +39,8 @@ void SpaceLoads::scale(const SolverCosts& costs) {
   }
 }
 
-namespace {
-
-void add_island(const SpaceLoads& loads, const std::vector<SpacePart>& island, std::span<const int> owner,
-                std::vector<SolverWork>& work, PredictedLoads& load) {
-  std::vector<int> bodies(work.size(), 0);
-  const int solver = solver_of(island, owner, bodies);
-  for (const SpacePart& part : island) {
-    work[solver].add(part.work);
-    const int home = owner[part.space];
-    if (home == solver) continue;
-    load.ships = true;
-    load.ranks[solver].solve_s += loads.ship_s * part.work.bodies;
-    load.ranks[home].solve_s += loads.ship_s * part.work.bodies;
-  }
-}
-
-}  // namespace
-
 bool is_near_others(std::span<const int> neighbours, std::span<const int> owner, int space) {
   return std::ranges::any_of(neighbours, [&](int other) { return owner[other] != owner[space]; });
-}
-
-PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
-  PredictedLoads load{std::vector<RankLoad>(static_cast<std::size_t>(num_ranks)), false};
-  std::vector<SolverWork> work(load.ranks.size());
-  load.ranks.front().collide_s = loads.root_extra_s;
-  for (std::size_t space = 0; space < loads.borders.size(); ++space) {
-    if (is_near_others(loads.borders[space].neighbours, owner, static_cast<int>(space)))
-      load.ranks.front().collide_s += loads.cross_s * loads.borders[space].bodies;
-  }
-  for (std::size_t space = 0; space < owner.size(); ++space) {
-    load.ranks[owner[space]].collide_s += loads.collide_s[space];
-    work[owner[space]].add(loads.inside[space]);
-  }
-  for (const std::vector<SpacePart>& island : loads.islands) add_island(loads, island, owner, work, load);
-  for (std::size_t rank = 0; rank < work.size(); ++rank)
-    load.ranks[rank].solve_s += loads.seconds(work[rank]);
-  return load;
 }
 
 SolverCosts fit_costs(std::span<const RankSample> ranks) {

@@ -54,31 +54,12 @@ struct SpaceLoads {
   void scale(const SolverCosts& costs);          ///< from weights to seconds
 };
 
-/// Predicted seconds of one rank in a frame.
-struct RankLoad {
-  double collide_s = 0;  ///< on root its own section is included
-  double solve_s = 0;    ///< shipping included
-};
-
-struct PredictedLoads {
-  std::vector<RankLoad> ranks;  ///< [num_ranks]
-  bool ships = false;           ///< does an island cross ranks?
-
-  /// Seconds of the frame. Where nothing is shipped, a rank goes on to collide as soon as it has solved its
-  /// islands; where islands are shipped, the ranks wait for each other between collision and solver.
-  double makespan_s() const;
-};
-
 /// The rank that solves an island of several spaces: that with most of its bodies, the lowest on a tie.
 /// `scratch` [num_ranks] is zeros before and after.
 int solver_of(std::span<const SpacePart> island, std::span<const int> owner, std::span<int> scratch);
 
 /// Does another rank own one of these neighbours of the space?
 bool is_near_others(std::span<const int> neighbours, std::span<const int> owner, int space);
-
-/// Predicts the loads under an ownership, `owner` [num_spaces]: an island of several ranks is solved on the
-/// rank of its largest part, and its other parts are shipped there.
-PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks);
 
 /// Least-squares fit of the two costs to the ranks' seconds. Where the ranks do not differ enough to tell the
 /// two costs apart, both get the same value.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "mpi/spaces/plan/load_ledger.h"
 #include "mpi/spaces/plan/reassign_spaces.h"
 
 namespace pbmpi::mpi {
