@@ -25,6 +25,7 @@ void SpaceEstimate::run(const SpaceOwnership& ownership, const model::State& sta
   core::LapTimer timer(times);
   step_.own(ownership, start, step);
   timer.lap(core::Phase::integrate);
+  step_.start_frame();
   for (int i = 0; i < steps_per_frame_; ++i) step_.run(step + i, i + 1 == steps_per_frame_, times);
   if (comm_->is_root()) state_ = stepper_->state();
 }
@@ -83,6 +84,7 @@ void CutWorld::step_frame(core::PhaseTimes& times) {
   // A rank without bodies only waits for the others, whichever phases it does that in.
   const bool idle = !comm_->is_root() && ownership_.bodies[comm_->rank()].empty();
   core::PhaseTimes unused;
+  step_.start_frame();
   for (int i = 0; i < steps_per_frame_; ++i) {
     step_.run(steps_done_, i + 1 == steps_per_frame_, idle ? unused : times);
     if (hook_) hook_(steps_done_, step_.contacts());

@@ -136,9 +136,10 @@ Reassignment reassign_spaces(const SpaceLoads& loads, std::span<const int> owner
   for (const RankLoad& rank : now.ranks) mean_s += (rank.collide_s + rank.solve_s) / num_ranks;
   if (!now.ships && now.makespan_s() <= mean_s * (1 + least_gain))
     return {{}, now.makespan_s(), now.makespan_s()};
-  // Some 10 ms of root's time, and more where there is much to gain: a little can be found in a later frame.
-  const double most_ratings = 1e4 * std::max(1.0, 8 * (now.makespan_s() / mean_s - 1));
-  search.run(static_cast<int>(std::min(most_ratings, 1e6)));
+  // Some 10 ms of root's time, as a little can be found in a later frame, too; more where a rank has much too
+  // much to do.
+  const double excess = now.makespan_s() / mean_s - 1;
+  search.run(static_cast<int>(std::min(1e4 * std::max(1.0, excess * excess / 3), 1e6)));
   Reassignment result{{}, now.makespan_s(), search.predicted().makespan_s()};
   if (result.makespan_before_s <= result.makespan_after_s * (1 + least_gain)) return result;
   for (std::size_t space = 0; space < owner.size(); ++space) {

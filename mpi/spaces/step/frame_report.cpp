@@ -45,6 +45,16 @@ stepping::StepContacts read_contacts(MessageReader& message) {
   return shown;
 }
 
+/// The times less what other ranks and programs on the rank's cores took of them. `processor_s`: of the rank
+/// in the same steps.
+core::PhaseTimes undisturbed(const core::PhaseTimes& times, double processor_s) {
+  core::PhaseTimes own = times;
+  const double useful_s = times.useful_s();
+  if (processor_s >= useful_s) return own;
+  for (double& seconds : own.seconds) seconds *= processor_s / useful_s;
+  return own;
+}
+
 }  // namespace
 
 void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::PhaseTimes& times) {
@@ -56,7 +66,7 @@ void FrameReport::send(const StepWork& work, std::int64_t bodies_shipped, core::
   own.energy_j = energy_j;
   own.seen.joint_gap_m = own_joint_gap();
   timer.lap(Phase::islands);
-  own.times = times;
+  own.times = undisturbed(times, processor_time_s() - processor_before_s_);
   own.bodies_shipped = bodies_shipped;
   own.island_of_unit = islands_->islands().of_unit;
   own.unit_weight = islands_->unit_weight();

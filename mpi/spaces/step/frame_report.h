@@ -8,6 +8,7 @@
 #include "core/clock.h"
 #include "model/islands.h"
 #include "mpi/comm/message.h"
+#include "mpi/comm/processor_time.h"
 #include "mpi/spaces/step/crossing_search.h"
 #include "mpi/spaces/step/rank_islands.h"
 #include "mpi/spaces/step/step_context.h"
@@ -21,9 +22,10 @@ struct FrameFindings {
   std::vector<double> weight;    ///< [num_units] rows of joints and contacts, and bodies
   std::vector<char> near;        ///< [num_units] is a body of its island in the field? empty without a field
   std::vector<double> energy_j;  ///< [num_bodies]
-  stepping::StepContacts contacts;      ///< of all ranks, if they are recorded
-  std::vector<core::PhaseTimes> times;  ///< [num_ranks] of this frame so far
-  std::int64_t bodies_shipped = 0;      ///< in this frame, from any rank to another, summed over its steps
+  stepping::StepContacts contacts;  ///< of all ranks, if they are recorded
+  std::vector<core::PhaseTimes>
+      times;  ///< [num_ranks] of this frame so far, as if each rank had a core of its own
+  std::int64_t bodies_shipped = 0;  ///< in this frame, from any rank to another, summed over its steps
 };
 
 /// Each rank measures its own bodies and sends root one message: the rows of its bodies, the memory of its
@@ -38,6 +40,8 @@ class FrameReport {
   FrameReport(StepContext& shared, RankIslands& islands, CrossingSearch& crossing)
       : shared_(&shared), islands_(&islands), crossing_(&crossing) {}
 
+  /// To be called before the first step of a frame.
+  void start_frame() { processor_before_s_ = processor_time_s(); }
   /// Collective. `work`: what this rank solved in the last step; `bodies_shipped`: by this rank in this
   /// frame.
   void send(const StepWork& work, std::int64_t bodies_shipped, core::PhaseTimes& times);
@@ -71,6 +75,7 @@ class FrameReport {
   CrossingSearch* crossing_;
   FrameFindings findings_;
   stepping::StepContacts own_contacts_;
+  double processor_before_s_ = 0;  ///< processor_time_s() when the frame began
 };
 
 }  // namespace pbmpi::mpi

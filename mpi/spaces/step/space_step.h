@@ -101,6 +101,8 @@ class SpaceStep {
   void run(std::int64_t step, bool last, core::PhaseTimes& times);
 
   // On root.
+  /// To be called before the first step of a frame.
+  void start_frame() { report_.start_frame(); }
   const FrameFindings& findings() const { return report_.findings(); }
   std::span<const geometry::Box> boxes() const { return crossing_.boxes(); }  ///< [num_spaces]
   /// The contacts that this rank solved in the last step, in canonical order.
