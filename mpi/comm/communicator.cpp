@@ -145,8 +145,9 @@ int Communicator::size() const { return is_null() ? 1 : handle_->size; }
 int Communicator::fortran_handle() const { return MPI_Comm_c2f(is_null() ? MPI_COMM_NULL : handle_->comm); }
 
 void Communicator::barrier() const {
+  if (is_null()) return;
   const Waiting waiting;
-  if (!is_null()) check(MPI_Barrier(handle_->comm), "MPI_Barrier", rank());
+  check(MPI_Barrier(handle_->comm), "MPI_Barrier", rank());
 }
 
 void Communicator::bcast_string(std::string& text, int from) const {

@@ -23,9 +23,9 @@ SpaceEstimate::SpaceEstimate(const Communicator& comm, stepping::SpaceStepper& s
 void SpaceEstimate::run(const SpaceOwnership& ownership, const model::State& start, std::int64_t step,
                         core::PhaseTimes& times) {
   core::LapTimer timer(times);
+  step_.start_frame();
   step_.own(ownership, start, step);
   timer.lap(core::Phase::integrate);
-  step_.start_frame();
   for (int i = 0; i < steps_per_frame_; ++i) step_.run(step + i, i + 1 == steps_per_frame_, times);
   if (comm_->is_root()) state_ = stepper_->state();
 }

@@ -34,6 +34,16 @@ OF_THE_MACHINE = re.compile(r"(?:\[?hwloc/.*|pb\w+: warning: \d+ ranks .*take tu
 TIMEOUT_S = 300  # a hang, not a slow run: the longest takes seconds on a machine that has nothing else to do
 
 
+def number_argument(name, default):
+    """The number after `name` among the arguments of a test, which unittest then does not see; without it `default`."""
+    if name not in sys.argv:
+        return default
+    place = sys.argv.index(name)
+    number = int(sys.argv[place + 1])
+    del sys.argv[place:place + 2]
+    return number
+
+
 def alone(folder):
     """The environment of a process that needs no way to others: MPI starts without a daemon, in a tenth of the time. `folder` is for
     its session: all such processes of a machine would use the same one, at the same time."""

@@ -4,16 +4,15 @@ usage: test_faults.py [--kills N]: N runs of which one rank is killed; 12 withou
 import os
 import random
 import signal
-import sys
 import time
 import unittest
 
 import h5py
 import numpy
 
-from harness import AT_ONCE, TIMEOUT_S, ProgramTest, rank_pids, wait_until
+from harness import AT_ONCE, TIMEOUT_S, ProgramTest, number_argument, rank_pids, wait_until
 
-NUM_KILLS = 12
+NUM_KILLS = number_argument("--kills", 12)
 LONG_RUN = ["--scene", "CrashSk", "--replicas", "8", "--frames", "1000000", "--record-every", "100", "--quiet"]
 
 
@@ -119,8 +118,4 @@ class Faults(ProgramTest):
 
 
 if __name__ == "__main__":
-    if "--kills" in sys.argv:
-        place = sys.argv.index("--kills")
-        NUM_KILLS = int(sys.argv[place + 1])
-        del sys.argv[place:place + 2]
     unittest.main()

@@ -5,15 +5,22 @@
 
 namespace pbmpi::mpi {
 
-double PredictedLoads::makespan_s() const {
+namespace {
+
+/// As PredictedLoads::makespan_s(), of any ranks with these two times.
+double makespan_of(const auto& ranks, bool ships) {
   double collide = 0, solve = 0, both = 0;
-  for (const RankLoad& rank : ranks) {
+  for (const auto& rank : ranks) {
     collide = std::max(collide, rank.collide_s);
     solve = std::max(solve, rank.solve_s);
     both = std::max(both, rank.collide_s + rank.solve_s);
   }
   return ships ? collide + solve : both;
 }
+
+}  // namespace
+
+double PredictedLoads::makespan_s() const { return makespan_of(ranks, ships); }
 
 PredictedLoads predict_loads(const SpaceLoads& loads, std::span<const int> owner, int num_ranks) {
   return LoadLedger(loads, owner, num_ranks).loads();
@@ -55,16 +62,13 @@ bool LoadLedger::ships(int island) const {
 }
 
 double LoadLedger::rating() const {
-  double collide = 0, solve = 0, both = 0, sum = 0, squares = 0;
+  double sum = 0, squares = 0;
   for (const Rank& rank : ranks_) {
     const double busy_s = rank.collide_s + rank.solve_s;
-    collide = std::max(collide, rank.collide_s);
-    solve = std::max(solve, rank.solve_s);
-    both = std::max(both, busy_s);
     sum += busy_s;
     squares += busy_s * busy_s;
   }
-  const double longest = num_shipped_ > 0 ? collide + solve : both;
+  const double longest = makespan_of(ranks_, num_shipped_ > 0);
   if (!(longest > 0)) return 0;
   // At equal makespans, less total work is better, as it ships less; and even loads are, since of several
   // ranks that take longest a change relieves one at a time.

@@ -97,12 +97,12 @@ class SpaceStep {
   /// Gives the spaces new owners from now on. `state`: of all bodies, on every rank.
   void own(const SpaceOwnership& ownership, const model::State& state, std::int64_t step);
 
+  /// To be called before the first step of a frame.
+  void start_frame() { report_.start_frame(); }
   /// `last`: the last step of a frame, after which root has all rows of the state, and findings().
   void run(std::int64_t step, bool last, core::PhaseTimes& times);
 
   // On root.
-  /// To be called before the first step of a frame.
-  void start_frame() { report_.start_frame(); }
   const FrameFindings& findings() const { return report_.findings(); }
   std::span<const geometry::Box> boxes() const { return crossing_.boxes(); }  ///< [num_spaces]
   /// The contacts that this rank solved in the last step, in canonical order.

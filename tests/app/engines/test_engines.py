@@ -16,6 +16,7 @@ EFFECTS = {"bullet": ((STACKS, 22, 45), (SIGN, 6, 20)), "mujoco": ((SIGN, 6, 20)
 # Ten frames of the scenes with hundreds of contacts take MuJoCo minutes.
 STEPPED = {"bullet": SCENES, "mujoco": ("2-Cars", "10-Cars", "CrashSk", "100CrSk", "Fight")}
 PBSTUDY = os.path.join(BIN, "pbstudy")
+ALL = "--all" in sys.argv  # the frames of the long form
 
 
 class Engines(ProgramTest):
@@ -50,7 +51,7 @@ class Engines(ProgramTest):
     def test_one_hash_for_1_to_4_ranks_with_and_without_output(self):
         for engine in self.each():
             for scene, replicas in (("CrashSk", 5), ("2-Cars", 3), ("Fight", 2)):
-                args = ["--scene", scene, "--replicas", replicas, "--frames", 8, "--stepper", engine]
+                args = ["--scene", scene, "--replicas", replicas, "--frames", 20 if ALL else 8, "--stepper", engine]
                 hashes = {self.summary(ranks, *args, *output)["state_hash"]
                           for ranks, output in ((1, ["--no-output"]), (2, ["--no-output"]), (3, ["--no-output"]),
                                                 (4, ["--output", f"{engine}.{scene}.h5"]))}
@@ -61,7 +62,7 @@ class Engines(ProgramTest):
 
     def test_a_rebalance_does_not_change_the_hash(self):
         for engine in self.each():
-            args = ["--scene", f"{SOURCE}/tests/scenes/Unequal.toml", "--frames", 20, "--stepper", engine, "--no-output"]
+            args = ["--scene", f"{SOURCE}/tests/scenes/Unequal.toml", "--frames", 40 if ALL else 20, "--stepper", engine, "--no-output"]
             one, three = self.summary(1, *args), self.summary(3, *args)
             self.assertGreater(three["rebalances"]["worlds_moved"], 0, "the worlds are so unequal that they must move")
             self.assertEqual(one["state_hash"], three["state_hash"])
@@ -170,4 +171,4 @@ mass = 10
 """
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=[argument for argument in sys.argv if argument != "--all"])

@@ -1,8 +1,8 @@
 """Hundreds of slightly wrong files: none ends a reader by a signal, in MPI_ABORT or bad_alloc, or in a wrong result.
 
-usage: test_mutants.py [--mutants N]: N scenes, a third of that of each other kind, and a twentieth of files that reports in Python read, which
-take half a second each. A mutant depends on its number alone, and a failure names it. What once failed stands in the folder mutants beside
-this file, one file a case, and is tried each time."""
+usage: test_mutants.py [--mutants N]: N scenes, a third of that of each other kind, and a tenth of files that reports in Python read, which
+take half a second each; without it 200, and a twentieth. A mutant depends on its number alone, and a failure names it. What once failed
+stands in the folder mutants beside this file, one file a case, and is tried each time."""
 import glob
 import os
 import random
@@ -13,11 +13,12 @@ import sys
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-from harness import AT_ONCE, BIN, PBMPI, PBREPORT, SOURCE, ProgramTest, alone, seal  # noqa: E402
+from harness import AT_ONCE, BIN, PBMPI, PBREPORT, SOURCE, ProgramTest, alone, number_argument, seal  # noqa: E402
 
 PBSTUDY = os.path.join(BIN, "pbstudy")
 LIMIT_S = 60  # a hang: each of these takes a fraction of a second
-MUTANTS = 200
+PYTHON_SHARE = 10 if "--mutants" in sys.argv else 20  # of files that reports in Python read
+MUTANTS = number_argument("--mutants", 200)
 CORPUS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "mutants")
 NASTY = [b"0", b"-1", b"1e300", b"-1e-300", b"nan", b"inf", b"-inf", b"2147483647", b"-2147483648", b"9007199254740993",
          b"9223372036854775807", b"18446744073709551616", b"1e9999", b"0x7fffffff", b'""', b'"\xc3\xa9"', b'"\\u0000"', b"true",
@@ -199,7 +200,7 @@ class Mutants(ProgramTest):
                                     "--quiet").returncode, 0)
         for command in (["csv", "run.h5"], ["csv", "run.h5", "--table", "contacts"], ["csv", "run.h5", "--table", "events"],
                         ["ensemble", "run.h5", "other.h5", "--json"], ["join", "run.h5", "rest.h5", "-o", "all.h5"]):
-            self.try_files("run.h5", [PBREPORT, *command], False, 20)
+            self.try_files("run.h5", [PBREPORT, *command], False, PYTHON_SHARE)
 
     def test_files_of_studies(self):
         result = self.run_command([PBSTUDY, "effects", "--scene", "2-Cars", "--effect", "gravity", "friction", "--repeats", "1",
@@ -215,8 +216,4 @@ class Mutants(ProgramTest):
 
 
 if __name__ == "__main__":
-    if "--mutants" in sys.argv:
-        place = sys.argv.index("--mutants")
-        MUTANTS = int(sys.argv[place + 1])
-        del sys.argv[place:place + 2]
     unittest.main()
